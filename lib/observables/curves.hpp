@@ -7,6 +7,8 @@
 #include <arcslip/observables/stability_request.hpp>
 #include <arcslip/scene/scene.hpp>
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,6 +52,12 @@ struct BifurcationRange {
 /// Throws scene::ParameterError for an unknown parameter or a range beyond its bounds.
 std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const ParameterRange& range,
                                                const ProgressCallback& progress = {});
+
+/// From the branch of a scene with fewer harmonics, that of `scene`, where only parts are traced anew, as of
+/// a frequency response. Nothing where there are several branches.
+std::optional<RefinedResponse> refined_response(const scene::Scene& scene, const ParameterRange& range,
+                                                std::span<const ResponseBranch> coarse, double accuracy,
+                                                const ProgressCallback& progress = {});
 
 /// The curves of resonance peaks, dA/ds = 0 along the frequency, over range.over. They are started from the
 /// peaks in the frequency window at both ends of the range, at seven values in between, and next to each end

@@ -117,6 +117,17 @@ std::shared_ptr<const model::Model> model_of(const scene::Scene& scene, scene::S
   return model;
 }
 
+std::shared_ptr<const hbm::HbmProblem> problem_of(const ResponseBranch& branch,
+                                                  const std::shared_ptr<const model::Model>& model,
+                                                  double omega, double frequency_scale, const GoOn& go_on) {
+  const auto unscaled = problem_at(model, omega, frequency_scale, go_on);
+  if (!unscaled) return nullptr;
+  const auto& at_first = branch.points.front().unknowns;
+  const double size =
+      Eigen::Map<const Vector>(at_first.data(), static_cast<Eigen::Index>(at_first.size())).norm();
+  return std::make_shared<const hbm::HbmProblem>(*unscaled, size > 0 ? size : 1);
+}
+
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
                              double frequency_scale, const GoOn& go_on) {
   const auto found = problem_at(model, omega, frequency_scale, go_on);

@@ -45,6 +45,12 @@ std::shared_ptr<const hbm::HbmProblem> problem_at(const std::shared_ptr<const mo
                                                   double omega, double frequency_scale,
                                                   const GoOn& go_on = {});
 
+/// The same in the displacement of the first point of a branch.
+std::shared_ptr<const hbm::HbmProblem> problem_of(const ResponseBranch& branch,
+                                                  const std::shared_ptr<const model::Model>& model,
+                                                  double omega, double frequency_scale,
+                                                  const GoOn& go_on = {});
+
 /// At omega with the model's own parameters. frequency_scale: of the problem.
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
                              double frequency_scale, const GoOn& go_on = {});

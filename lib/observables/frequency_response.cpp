@@ -20,8 +20,6 @@ using continuation::StopReason;
 using continuation::Vector;
 
 constexpr double beyond_display = 1e6;  // |u| in scales: larger responses may be unbounded
-constexpr double most_refined = 0.8;    // of the points: beyond, the whole branch is traced anew
-constexpr double same_response = 40;    // times the error allowed: the estimate is at least |dx|/20
 
 // Branches that leave others are found by it.
 StabilityRequest stability_of(const FrequencyRange& range) {
@@ -32,26 +30,6 @@ StabilityRequest stability_of(const FrequencyRange& range) {
 
 double seconds_since(std::chrono::steady_clock::time_point began) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-}
-
-double largest_amplitude(const ResponseBranch& branch, std::size_t first, std::size_t last) {
-  double largest = 0;
-  for (std::size_t i = first; i <= last; ++i) largest = std::max(largest, branch.points[i].amplitude);
-  for (const ResponseEvent& event : branch.events)
-    if (event.after >= first && event.after < last) largest = std::max(largest, event.point.amplitude);
-  return largest;
-}
-
-double largest_amplitude(const ResponseBranch& branch) {
-  return largest_amplitude(branch, 0, branch.points.size() - 1);
-}
-
-// The largest difference of a coefficient of the response, m.
-double distance(const ResponsePoint& a, const ResponsePoint& b) {
-  double most = 0;
-  for (std::size_t i = 0; i < a.coefficients.size(); ++i)
-    most = std::max(most, std::abs(a.coefficients[i] - b.coefficients[i]));
-  return most;
 }
 
 // One branch over the window [from, to], with the data to continue beyond an unbounded peak.
@@ -87,37 +65,13 @@ class Sweep {
   std::optional<RefinedResponse> refined(std::span<const ResponseBranch> coarse, double accuracy) {
     if (all_ || coarse.size() != 1) return {};
     const ResponseBranch& branch = coarse.front();
-    if (branch.status != Status::complete || branch.stop.reason != reasons::boundary) return {};
-    const double largest = largest_amplitude(branch), allowed = accuracy * largest;
-    const std::vector<Part> parts = parts_to_refine(branch, allowed);
-    std::size_t count = 0;
-    for (const Part& part : parts) count += part.last - part.first + 1;
-    const auto of_all = static_cast<double>(count) / static_cast<double>(branch.points.size());
-    if (parts.empty() || of_all > most_refined) return {};
-    const auto unscaled = problem_at(model_, lower_, upper_ - lower_, [this] { return go_on(); });
-    if (!unscaled) return {};
-    const auto& at_first = branch.points.front().unknowns;
-    const double size =
-        Eigen::Map<const Vector>(at_first.data(), static_cast<Eigen::Index>(at_first.size())).norm();
-    const auto problem = std::make_shared<const hbm::HbmProblem>(*unscaled, size > 0 ? size : 1);
-    std::vector<ResponseBranch> traced;
-    double change = 0;
-    for (const Part& part : parts) {
-      auto found = trace_part(problem, branch, part);
-      if (!found) return {};
-      for (const auto& [i, now] :
-           {std::pair(part.first, &found->points.front()), std::pair(part.last, &found->points.back())}) {
-        const ResponsePoint before = in_harmonics(branch.points[i], branch, *found);
-        const bool is_inner = i > 0 && i + 1 < branch.points.size();  // there its estimate is small
-        if (is_inner && distance(before, *now) > same_response * allowed) return {};
-        change = std::max(change, std::abs(now->amplitude - before.amplitude));
-      }
-      change = std::max(
-          change, std::abs(largest_amplitude(*found) - largest_amplitude(branch, part.first, part.last)));
-      traced.push_back(std::move(*found));
-    }
-    RefinedResponse all{{with_parts(branch, parts, std::move(traced))}, change / largest};
-    return all;
+    std::shared_ptr<const hbm::HbmProblem> problem;
+    auto all = refined_branch(branch, accuracy, [&](const Part& part) -> std::optional<ResponseBranch> {
+      if (!problem) problem = problem_of(branch, model_, lower_, upper_ - lower_, [this] { return go_on(); });
+      return problem ? trace_part(problem, branch, part) : std::nullopt;
+    });
+    if (!all) return {};
+    return RefinedResponse{{std::move(all->branch)}, all->change};
   }
 
  private:

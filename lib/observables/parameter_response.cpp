@@ -3,6 +3,7 @@
 #include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/over_parameter.hpp>
 #include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/refined_parts.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/shooting_response.hpp>
 #include <arcslip/observables/study_branches.hpp>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace arcslip::observables {
 namespace {
@@ -68,6 +70,18 @@ class Traces {
     return branches;
   }
 
+  std::optional<RefinedResponse> refined(std::span<const ResponseBranch> coarse, double accuracy) {
+    if (coarse.size() != 1) return {};
+    const ResponseBranch& branch = coarse.front();
+    std::shared_ptr<const hbm::HbmProblem> problem;
+    auto all = refined_branch(branch, accuracy, [&](const Part& part) -> std::optional<ResponseBranch> {
+      if (!problem) problem = problem_of(branch, way_.model, omega_, omega_, [this] { return go_on(); });
+      return problem ? trace_part(problem, branch, part) : std::nullopt;
+    });
+    if (!all) return {};
+    return RefinedResponse{{std::move(all->branch)}, all->change};
+  }
+
  private:
   // Reports progress and checks for a stop, also between points, with the numbers of the last one.
   bool go_on() {
@@ -92,8 +106,37 @@ class Traces {
     return result;
   }
 
+  // A part of a branch of fewer harmonics; nothing if it does not reach the end of that part.
+  std::optional<ResponseBranch> trace_part(const std::shared_ptr<const hbm::HbmProblem>& problem,
+                                           const ResponseBranch& branch, const Part& part) {
+    const ResponsePoint& first = branch.points[part.first];
+    const double to = branch.points[part.last].over;
+    ResponseBranch result = described(*way_.model, way_.name);
+    const ResponsePoint start = in_harmonics(first, branch, result);
+    auto options = way_.options();
+    (to > first.over ? options.upper : options.lower) = to;
+    const int direction = branch.points[part.first + 1].over > first.over ? 1 : -1;
+    const auto traced = trace_from(
+        problem,
+        Eigen::Map<const Vector>(start.unknowns.data(), static_cast<Eigen::Index>(start.unknowns.size())),
+        first.over, direction, std::move(options), result);
+    if (traced.stop.reason != StopReason::boundary || traced.stop.value != to) return {};
+    return result;
+  }
+
   continuation::Branch trace(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u,
                              ResponseBranch& result) {
+    auto branch = trace_from(problem, u, way_.from, way_.direction(), way_.options(), result);
+    const Vector p = hbm::parameters_at(*problem, omega_);
+    speak_of_scene(*way_.model, p, branch);
+    tell_end(way_, branch.stop, doubt_of_rounding(*way_.model, p, branch.counts), result);
+    return branch;
+  }
+
+  // But for its status and stop.
+  continuation::Branch trace_from(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u,
+                                  double from, int direction, continuation::Options options,
+                                  ResponseBranch& result) {
     const auto began = std::chrono::steady_clock::now();
     result = described(*way_.model, way_.name);
     const auto observer = std::make_shared<Observer>(problem, way_.index);
@@ -123,15 +166,13 @@ class Traces {
       progress_.share_done = way_.share(now.parameter);
       return go_on();
     };
-    const Vector p = hbm::parameters_at(*problem, omega_);
-    auto options = way_.options();
+    Vector p = hbm::parameters_at(*problem, omega_);
+    p[way_.index] = from;
     options.go_on = [this] { return go_on(); };
-    auto branch = continuation::trace(problem, {u, p, way_.index, way_.direction()}, options,
-                                      std::move(monitors), record);
+    auto branch =
+        continuation::trace(problem, {u, p, way_.index, direction}, options, std::move(monitors), record);
     result.unknown_stability = observer->unknown_stability();
     drop_extrema_of_rounding(course, at, result);
-    speak_of_scene(*way_.model, p, branch);
-    tell_end(way_, branch.stop, doubt_of_rounding(*way_.model, p, branch.counts), result);
     result.solver.unknowns = problem->size();
     add(branch.counts, result.solver);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -153,6 +194,13 @@ std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const 
                                                const ProgressCallback& progress) {
   if (range.method == ResponseMethod::shooting) return {shooting_response(scene, range, progress)};
   return Traces(scene, range, progress).run();
+}
+
+std::optional<RefinedResponse> refined_response(const scene::Scene& scene, const ParameterRange& range,
+                                                std::span<const ResponseBranch> coarse, double accuracy,
+                                                const ProgressCallback& progress) {
+  if (range.method == ResponseMethod::shooting) return {};
+  return Traces(scene, range, progress).refined(coarse, accuracy);
 }
 
 }  // namespace arcslip::observables

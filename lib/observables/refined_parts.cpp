@@ -1,6 +1,7 @@
 #include <arcslip/observables/refined_parts.hpp>
 
 #include <arcslip/elements/harmonics.hpp>
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/study_branches.hpp>
 
 #include <algorithm>
@@ -12,6 +13,8 @@ namespace {
 
 constexpr std::size_t neighbours = 3;  // points on each side that a part takes with it
 constexpr std::size_t apart = 4;       // points between two parts: fewer belong to one
+constexpr double most_refined = 0.8;   // of the points: beyond, the whole branch is traced anew
+constexpr double same_response = 40;   // times the error allowed: the estimate is at least |dx|/20
 
 elements::Harmonics harmonics_of(const ResponseBranch& branch) {
   return {branch.harmonics.back(), branch.harmonics.front() > 0, branch.period};
@@ -26,13 +29,38 @@ std::vector<double> in_harmonics(const std::vector<double>& u, const elements::H
   return wider;
 }
 
-// Whether the frequency goes on at each point of a branch, and no event lies next to it; true at both ends.
+double largest_amplitude(const ResponseBranch& branch, const Part& part) {
+  double largest = 0;
+  for (std::size_t i = part.first; i <= part.last; ++i)
+    largest = std::max(largest, branch.points[i].amplitude);
+  for (const ResponseEvent& event : branch.events)
+    if (event.after >= part.first && event.after < part.last)
+      largest = std::max(largest, event.point.amplitude);
+  return largest;
+}
+
+double largest_amplitude(const ResponseBranch& branch) {
+  return largest_amplitude(branch, {0, branch.points.size() - 1});
+}
+
+// The largest difference of a coefficient of the response, m.
+double distance(const ResponsePoint& a, const ResponsePoint& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.coefficients.size(); ++i)
+    most = std::max(most, std::abs(a.coefficients[i] - b.coefficients[i]));
+  return most;
+}
+
+// Whether a branch goes on in its direction at each point, and no event lies next to it; true at both ends.
 std::vector<bool> may_end(const ResponseBranch& branch) {
   const auto& points = branch.points;
   const std::size_t n = points.size();
   std::vector<bool> may(n, true);
   for (std::size_t i = 1; i + 1 < n; ++i)
-    may[i] = (points[i].omega - points[i - 1].omega) * (points[i + 1].omega - points[i].omega) > 0;
+    may[i] = (place_of(branch, points[i]) > place_of(branch, points[i - 1])) ==
+                 (place_of(branch, points[i + 1]) > place_of(branch, points[i])) &&
+             place_of(branch, points[i]) != place_of(branch, points[i - 1]) &&
+             place_of(branch, points[i + 1]) != place_of(branch, points[i]);
   for (const ResponseEvent& event : branch.events)
     for (std::size_t i = event.after > 0 ? event.after - 1 : 0; i < std::min(n, event.after + 3); ++i)
       may[i] = false;
@@ -40,20 +68,22 @@ std::vector<bool> may_end(const ResponseBranch& branch) {
   return may;
 }
 
-// A part whose last point may move on, with the range of the frequencies before that point.
+// A part whose last point may move on, with the range of the places before that point.
 struct Growing {
   Part part;
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
 
-  void go_to(const std::vector<ResponsePoint>& points, std::size_t last) {
+  void go_to(const ResponseBranch& branch, std::size_t last) {
     for (; part.last < last; ++part.last) {
-      lowest = std::min(lowest, points[part.last].omega);
-      highest = std::max(highest, points[part.last].omega);
+      const double place = place_of(branch, branch.points[part.last]);
+      lowest = std::min(lowest, place);
+      highest = std::max(highest, place);
     }
   }
   // Whether the last point is beyond all others, above or below.
-  bool is_left(const std::vector<ResponsePoint>& points) const {
-    return points[part.last].omega > highest || points[part.last].omega < lowest;
+  bool is_left(const ResponseBranch& branch) const {
+    const double place = place_of(branch, branch.points[part.last]);
+    return place > highest || place < lowest;
   }
 };
 
@@ -69,6 +99,10 @@ void append_events(const std::vector<ResponseEvent>& events, const Between& betw
 }
 
 }  // namespace
+
+double place_of(const ResponseBranch& branch, const ResponsePoint& point) {
+  return branch.over.empty() ? point.omega : point.over;
+}
 
 ResponsePoint in_harmonics(ResponsePoint point, const ResponseBranch& from, const ResponseBranch& to) {
   if (!point.unknowns.empty())
@@ -104,9 +138,9 @@ std::vector<Part> parts_to_refine(const ResponseBranch& branch, double allowed) 
     while (!may[first]) --first;
     if (growing.empty() || first > growing.back().part.last + apart) growing.push_back({{first, first}});
     Growing& last = growing.back();
-    last.go_to(branch.points, std::min(i + neighbours, n - 1));
-    while (last.part.last + 1 < n && !(may[last.part.last] && last.is_left(branch.points)))
-      last.go_to(branch.points, last.part.last + 1);
+    last.go_to(branch, std::min(i + neighbours, n - 1));
+    while (last.part.last + 1 < n && !(may[last.part.last] && last.is_left(branch)))
+      last.go_to(branch, last.part.last + 1);
   }
   std::vector<Part> parts;
   for (const Growing& each : growing) parts.push_back(each.part);
@@ -143,6 +177,34 @@ ResponseBranch with_parts(const ResponseBranch& branch, const std::vector<Part>&
   }
   keep_until(branch.points.size());
   return whole;
+}
+
+std::optional<RefinedBranch> refined_branch(
+    const ResponseBranch& branch, double accuracy,
+    const std::function<std::optional<ResponseBranch>(const Part&)>& trace) {
+  if (branch.status != Status::complete || branch.stop.reason != reasons::boundary) return {};
+  const double largest = largest_amplitude(branch), allowed = accuracy * largest;
+  const std::vector<Part> parts = parts_to_refine(branch, allowed);
+  std::size_t count = 0;
+  for (const Part& part : parts) count += part.last - part.first + 1;
+  const auto of_all = static_cast<double>(count) / static_cast<double>(branch.points.size());
+  if (parts.empty() || of_all > most_refined) return {};
+  std::vector<ResponseBranch> traced;
+  double change = 0;
+  for (const Part& part : parts) {
+    auto found = trace(part);
+    if (!found) return {};
+    for (const auto& [i, now] :
+         {std::pair(part.first, &found->points.front()), std::pair(part.last, &found->points.back())}) {
+      const ResponsePoint before = in_harmonics(branch.points[i], branch, *found);
+      const bool is_inner = i > 0 && i + 1 < branch.points.size();  // there its estimate is small
+      if (is_inner && distance(before, *now) > same_response * allowed) return {};
+      change = std::max(change, std::abs(now->amplitude - before.amplitude));
+    }
+    change = std::max(change, std::abs(largest_amplitude(*found) - largest_amplitude(branch, part)));
+    traced.push_back(std::move(*found));
+  }
+  return RefinedBranch{with_parts(branch, parts, std::move(traced)), change / largest};
 }
 
 }  // namespace arcslip::observables

@@ -36,8 +36,9 @@ KindOf<Range, observables::ResponseBranch> branch_kind(std::string_view name, st
             asked.mode = drawn == BranchKind::modes;
             asked.stability = drawn == BranchKind::bifurcations;
             if constexpr (requires { range.stability; }) asked.stability = range.stability;
-            if constexpr (requires { range.branches; }) {
+            if constexpr (requires { range.method; })  // of those that refined_in_parts() may have made
               asked.order = scene.harmonics.accuracy > 0 && range.method != decltype(range.method)::shooting;
+            if constexpr (requires { range.branches; }) {
               asked.leaving = range.branches == decltype(range.branches)::all;
               asked.stability = asked.stability || asked.leaving;
             }

@@ -2,10 +2,10 @@
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/method_key.hpp>
+#include <arcslip/studies/refined_in_parts.hpp>
 #include <arcslip/studies/stability_keys.hpp>
 
 #include <array>
-#include <utility>
 
 namespace arcslip::studies {
 namespace {
@@ -62,14 +62,7 @@ scene::file::KeysOf<FrequencyRange> keys() {
 KindOf<FrequencyRange, observables::ResponseBranch> kind() {
   auto kind = branch_kind<observables::frequency_response, BranchKind::responses>(
       "frf", "frequency responses, with their peaks and folds", keys());
-  kind.refine =
-      [](const Case& at, const FrequencyRange& range, std::span<const observables::ResponseBranch> coarse,
-         double accuracy,
-         const results::ProgressCallback& progress) -> std::optional<Refined<observables::ResponseBranch>> {
-    auto refined = observables::refined_response(at.scene, range, coarse, accuracy, progress);
-    if (!refined) return std::nullopt;
-    return Refined<observables::ResponseBranch>{std::move(refined->branches), refined->change};
-  };
+  kind.refine = refined_in_parts<FrequencyRange>;
   return kind;
 }
 

@@ -2,6 +2,7 @@
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/method_key.hpp>
+#include <arcslip/studies/refined_in_parts.hpp>
 #include <arcslip/studies/stability_keys.hpp>
 
 namespace arcslip::studies {
@@ -22,9 +23,12 @@ scene::file::KeysOf<ParameterRange> keys() {
 }  // namespace
 
 const scene::StudyType& trace() {
-  static const StudyOf<ParameterRange, observables::ResponseBranch> type(
-      branch_kind<observables::parameter_response, BranchKind::over_parameter>(
-          "trace", "responses over a parameter at a fixed frequency, with their extrema and folds", keys()));
+  static const StudyOf<ParameterRange, observables::ResponseBranch> type([] {
+    auto kind = branch_kind<observables::parameter_response, BranchKind::over_parameter>(
+        "trace", "responses over a parameter at a fixed frequency, with their extrema and folds", keys());
+    kind.refine = refined_in_parts<ParameterRange>;
+    return kind;
+  }());
   return type;
 }
 

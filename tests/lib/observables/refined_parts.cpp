@@ -6,6 +6,7 @@
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/hbm/problem.hpp>
+#include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/histories.hpp>
 #include <arcslip/observables/observe.hpp>
@@ -87,11 +88,11 @@ class Reference {
   Reference(scene::Scene s, int order) {
     s.harmonics.accuracy = 0;
     s.harmonics.order = order;
-    const auto model = std::make_shared<const model::Model>(model::build(s));
+    model_ = std::make_shared<const model::Model>(model::build(s));
     of_.harmonics.clear();
-    for (int i = 0; i < model->harmonics.cosines(); ++i)
-      of_.harmonics.push_back(model->harmonics.cosine_order(i));
-    problem_ = std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1e-3, 1);
+    for (int i = 0; i < model_->harmonics.cosines(); ++i)
+      of_.harmonics.push_back(model_->harmonics.cosine_order(i));
+    problem_ = std::make_shared<const hbm::HbmProblem>(model_, model_->harmonics, 1e-3, 1);
     observer_ = std::make_unique<observables::Observer>(problem_);
   }
 
@@ -100,7 +101,8 @@ class Reference {
     const ResponsePoint wide = observables::in_harmonics(point, from, of_);
     const Eigen::Map<const Vector> guess(wide.unknowns.data(),
                                          static_cast<Eigen::Index>(wide.unknowns.size()));
-    const Vector p = hbm::parameters_at(*problem_, point.omega);
+    Vector p = hbm::parameters_at(*problem_, point.omega);
+    if (!from.over.empty()) p[model::parameter_index(*model_, from.over)] = point.over;
     const auto u = hbm::response_near(*problem_, p, guess);
     if (!u) return std::nan("");
     const auto at = problem_->hbm_evaluator();
@@ -110,9 +112,52 @@ class Reference {
 
  private:
   ResponseBranch of_;
+  std::shared_ptr<const model::Model> model_;
   std::shared_ptr<const hbm::HbmProblem> problem_;
   std::unique_ptr<observables::Observer> observer_;
 };
+
+/// A response in parts beside the whole one with as many harmonics, and one with many more.
+void check_parts(const observables::RefinedResponse& refined, const ResponseBranch& coarse,
+                 const ResponseBranch& whole, Reference& many, double accuracy) {
+  REQUIRE(refined.branches.size() == 1);
+  const ResponseBranch& branch = refined.branches.front();
+  const int lower = coarse.harmonics.back(), higher = whole.harmonics.back();
+  const double allowed = accuracy * largest(branch);
+  CHECK(refined.change >= std::abs(largest(branch) / largest(coarse) - 1) - 1e-15);
+  CHECK(branch.harmonics == whole.harmonics);
+  CHECK(branch.over == whole.over);
+  CHECK(branch.status == observables::Status::complete);
+  using observables::place_of;
+  CHECK(place_of(branch, branch.points.front()) == place_of(whole, whole.points.front()));
+  CHECK(place_of(branch, branch.points.back()) == place_of(whole, whole.points.back()));
+
+  std::set<int> orders;
+  double worst = 0;
+  for (const ResponsePoint& point : branch.points) {
+    orders.insert(point.order);
+    CHECK(point.unknowns.size() == branch.points.front().unknowns.size());
+    CHECK(point.coefficients.size() == 2 * branch.harmonics.size());
+    if (point.order != lower) continue;
+    CHECK(std::abs(point.truncation_estimate) <= allowed);
+    CHECK_FALSE(point.truncation_flagged);
+    worst = std::max(worst, std::abs(many.amplitude(point, branch) - point.amplitude));
+  }
+  CHECK(orders == std::set{lower, higher});
+  CHECK(worst <= 2 * allowed);  // estimates are of first order
+
+  REQUIRE(branch.events.size() == whole.events.size());
+  for (std::size_t i = 0; i < branch.events.size(); ++i) {
+    const ResponseEvent &here = branch.events[i], &there = whole.events[i];
+    CAPTURE(i, here.kind, here.point.omega, here.point.over);
+    CHECK(here.kind == there.kind);
+    CHECK(here.after < branch.points.size());
+    const bool is_same = here.point.order == higher;
+    CHECK(std::abs(here.point.amplitude - there.point.amplitude) <=
+          (is_same ? 1e-8 * there.point.amplitude : 2 * allowed));
+    if (is_same) CHECK(place_of(branch, here.point) == Approx(place_of(whole, there.point)).epsilon(1e-8));
+  }
+}
 
 }  // namespace
 
@@ -210,42 +255,9 @@ TEST_CASE("a response of which parts have more harmonics is that of so many, wit
   const auto coarse = response(s, lower);
   const auto refined = observables::refined_response(finer, range_of(s), coarse, accuracy);
   REQUIRE(refined);
-  REQUIRE(refined->branches.size() == 1);
-  const ResponseBranch& branch = refined->branches.front();
-  const ResponseBranch whole = response(s, higher).front();
-  const double allowed = accuracy * largest(branch);
-  CHECK(refined->change >= std::abs(largest(branch) / largest(coarse.front()) - 1) - 1e-15);
-  CHECK(branch.harmonics == whole.harmonics);
-  CHECK(branch.status == observables::Status::complete);
-  CHECK(branch.points.front().omega == whole.points.front().omega);
-  CHECK(branch.points.back().omega == whole.points.back().omega);
-
-  std::set<int> orders;
   Reference many(s, 2 * higher + 21);
-  double worst = 0;
-  for (const ResponsePoint& point : branch.points) {
-    orders.insert(point.order);
-    CHECK(point.unknowns.size() == branch.points.front().unknowns.size());
-    CHECK(point.coefficients.size() == 2 * branch.harmonics.size());
-    if (point.order != lower) continue;
-    CHECK(std::abs(point.truncation_estimate) <= allowed);
-    CHECK_FALSE(point.truncation_flagged);
-    worst = std::max(worst, std::abs(many.amplitude(point, branch) - point.amplitude));
-  }
-  CHECK(orders == std::set{lower, higher});
-  CHECK(worst <= 2 * allowed);  // estimates are of first order
-
-  REQUIRE(branch.events.size() == whole.events.size());
-  for (std::size_t i = 0; i < branch.events.size(); ++i) {
-    const ResponseEvent &here = branch.events[i], &there = whole.events[i];
-    CAPTURE(i, here.kind, here.point.omega);
-    CHECK(here.kind == there.kind);
-    CHECK(here.after < branch.points.size());
-    const bool is_same = here.point.order == higher;
-    CHECK(std::abs(here.point.amplitude - there.point.amplitude) <=
-          (is_same ? 1e-8 * there.point.amplitude : 2 * allowed));
-    if (is_same) CHECK(here.point.omega == Approx(there.point.omega).epsilon(1e-8));
-  }
+  check_parts(*refined, coarse.front(), response(s, higher).front(), many, accuracy);
+  const ResponseBranch& branch = refined->branches.front();
   // Points of fewer harmonics are read in those of the branch.
   for (const ResponsePoint* point : {&branch.points.front(), &branch.points.back()}) {
     const std::vector<double> angles = observables::even_angles(360);
@@ -254,6 +266,48 @@ TEST_CASE("a response of which parts have more harmonics is that of so many, wit
     for (const double x : motion.displacement) most = std::max(most, std::abs(x));
     CHECK(most == Approx(point->amplitude).epsilon(1e-3));
   }
+}
+
+TEST_CASE("a response over a parameter of which parts have more harmonics is that of so many") {
+  struct Row {
+    const char *name, *over;
+    double from, to, frequency;
+    int lower, higher;
+    double accuracy;
+  };
+  const Row row = GENERATE(values<Row>({
+      {"rubbing_pad", "pad.normal_load", 1, 100, 110, 3, 9, 1e-4},
+      {"gap_limited_chain", "force.cosine", 0.01, 1, 1, 7, 21, 1e-4},
+      {"al_sayed_2011", "damper.normal_load", 30, 0.1, 20, 9, 21, 1e-6},
+      {"duffing_jenkins", "force.cosine", 0.05, 2, 1.6, 7, 21, 1e-5},
+  }));
+  CAPTURE(row.name);
+  scene::Scene s = scenes::example(row.name);
+  s.harmonics.accuracy = 0;
+  const observables::ParameterRange range{row.over, row.from, row.to, row.frequency};
+  const auto of_order = [&](int order) {
+    scene::Scene with = s;
+    with.harmonics.order = order;
+    return with;
+  };
+  const auto coarse = observables::parameter_response(of_order(row.lower), range);
+  REQUIRE(coarse.size() == 1);
+  const scene::Scene finer = of_order(row.higher);
+  const auto refined = observables::refined_response(finer, range, coarse, row.accuracy);
+  REQUIRE(refined);
+  Reference many(s, 2 * row.higher + 21);
+  check_parts(*refined, coarse.front(), observables::parameter_response(finer, range).front(), many,
+              row.accuracy);
+  auto several = coarse;
+  several.push_back(several.front());
+  CHECK_FALSE(observables::refined_response(finer, range, several, row.accuracy));
+  auto by_shooting = range;
+  by_shooting.method = observables::ResponseMethod::shooting;
+  CHECK_FALSE(observables::refined_response(finer, by_shooting, coarse, row.accuracy));
+  long asked = 0;
+  CHECK_FALSE(observables::refined_response(finer, range, coarse, row.accuracy,
+                                            [&](const results::Progress&) { return ++asked < 3; }));
+  CHECK(asked == 3);
 }
 
 TEST_CASE("parts are not refined where all has to be traced anew") {
