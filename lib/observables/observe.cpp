@@ -119,8 +119,9 @@ void Observer::add_stability(const continuation::Accepted& now, ResponsePoint& p
   stability.multipliers = found->multipliers();
   stability.kept = kept_multipliers_;
   stability.unstable = count_unstable(stability.multipliers);
+  const double modal_error = stability_->modal_error();
   if (truncation_->is_exact()) {
-    stability.error = 0;
+    stability.error = modal_error;
     return;
   }
   stable_u_.resize(0);
@@ -134,7 +135,7 @@ void Observer::add_stability(const continuation::Accepted& now, ResponsePoint& p
   const Multipliers* all = refined(Truncation::Reach::all);
   if (!all) return;
   const Multipliers by_all = *all;
-  stability.error = distance(stability.multipliers, by_all);
+  stability.error = modal_error + distance(stability.multipliers, by_all);
   if (const Multipliers* by_half = refined(Truncation::Reach::half))
     stability.error += distance(by_all, *by_half);
 }

@@ -17,9 +17,11 @@ using Complex = std::complex<double>;
 using continuation::Accepted;
 
 constexpr int most_dofs = 100;
+constexpr int modes_kept = 50;           // of more
 constexpr double rounding = 1e-11;       // of functions of multipliers, where the structure is undamped
 constexpr double on_circle = 1e-4;       // at a zero; otherwise the multipliers jump
 constexpr double jump = 1e-5;            // of the largest modulus across 1
+constexpr double steep_share = 0.5;      // of a change, not made by the slope beside it: more is a jump
 constexpr std::size_t most_kept = 1000;  // places
 
 bool same_but_frequency(const continuation::Vector& a, const continuation::Vector& b) {
@@ -27,6 +29,14 @@ bool same_but_frequency(const continuation::Vector& a, const continuation::Vecto
   for (Eigen::Index k = 0; k < a.size(); ++k)
     if (k != model::frequency && a[k] != b[k]) return false;
   return true;
+}
+
+bool may_leave_modes_out(const time::EquationOfMotion& equation) {
+  return equation.K == equation.K.transpose() && equation.C == equation.C.transpose() &&
+         std::all_of(equation.elements.begin(), equation.elements.end(),
+                     [](const time::TimeElement& element) {
+                       return element.law->automata(element.fields).has_value();
+                     });
 }
 
 }  // namespace
@@ -46,41 +56,67 @@ bool StabilityAnalysis::move_to(const hbm::HbmProblem& problem, continuation::In
 }
 
 bool StabilityAnalysis::prepare(const hbm::HbmProblem& problem, const continuation::Vector& p) {
-  if (!same_but_frequency(p, p_)) {
-    p_ = p;
-    floquet_.reset();
-    hill_.reset();
-    const int dofs = problem.model().dofs;
-    if (dofs > most_dofs) {
-      unknown_ = "the structure has " + std::to_string(dofs) + " degrees of freedom, and at most " +
-                 std::to_string(most_dofs) + " are supported";
-      return false;
-    }
-    try {
-      const auto equation = time::equation_of_motion(problem.model(), p);
-      if (by_hill_)
-        hill_.emplace(equation);
-      else
-        floquet_.emplace(equation);
-    } catch (const time::NoVariation& without) {
-      unknown_ = without.what();
-    } catch (const time::SingularMass& without) {
-      unknown_ = without.what();
-    } catch (const time::NotInTime& without) {
-      unknown_ = without.what();
-    }
+  if (same_but_frequency(p, p_)) return floquet_ || hill_;
+  p_ = p;
+  hill_.reset();
+  const model::Model& model = problem.model();
+  try {
+    if (model.dofs > most_dofs && model.stop && model.stop())
+      throw time::NoVariation("the search was stopped");
+    const auto equation = time::equation_of_motion(model, p);
+    if (model.dofs > most_dofs && (by_hill_ || !may_leave_modes_out(equation)))
+      throw time::NoVariation(
+          "the structure has " + std::to_string(model.dofs) + " degrees of freedom, and at most " +
+          std::to_string(most_dofs) +
+          " are supported by Hill's method, with unsymmetric matrices and with laws that are "
+          "not piecewise linear");
+    go_to(equation);
+    return true;
+  } catch (const time::NoVariation& without) {
+    unknown_ = without.what();
+  } catch (const time::SingularMass& without) {
+    unknown_ = without.what();
+  } catch (const time::NotInTime& without) {
+    unknown_ = without.what();
   }
-  return floquet_ || hill_;
+  floquet_.reset();
+  coarse_.reset();
+  return false;
+}
+
+void StabilityAnalysis::go_to(const time::EquationOfMotion& equation) {
+  if (by_hill_) {
+    hill_.emplace(equation);
+    return;
+  }
+  const bool is_large = equation.dofs() > most_dofs;
+  const auto move = [&](std::optional<time::Floquet>& floquet, int modes) {
+    if (floquet)
+      floquet->move_to(equation);
+    else if (is_large)
+      floquet.emplace(equation, time::ModesKept{.most = modes});
+    else
+      floquet.emplace(equation);
+  };
+  move(floquet_, modes_kept);
+  if (is_large) move(coarse_, modes_kept / 2);
 }
 
 bool StabilityAnalysis::compute(const hbm::HbmProblem& problem, const continuation::Vector& p) {
-  const double omega = problem.harmonics().base_frequency(p[model::frequency]);
-  const bool found = hill_ ? hill_->compute(omega, problem.harmonics(), courses_)
-                           : floquet_->compute(omega, problem.harmonics(), courses_);
+  omega_ = problem.harmonics().base_frequency(p[model::frequency]);
+  harmonics_ = problem.harmonics();
+  const bool found = hill_ ? hill_->compute(omega_, *harmonics_, courses_)
+                           : floquet_->compute(omega_, *harmonics_, courses_);
   if (!found)
     unknown_ =
         "at some of its points multipliers were not found, as where a law is very stiff along the motion";
   return found;
+}
+
+double StabilityAnalysis::modal_error() {
+  if (!coarse_) return 0;
+  if (!coarse_->compute(omega_, *harmonics_, courses_)) return no_value;
+  return distance(coarse_->multipliers(), multipliers());
 }
 
 const Multipliers& of_map(const StabilityAnalysis& found, const hbm::HbmProblem& problem) {
@@ -117,8 +153,8 @@ class Places {
  public:
   void add(const Accepted& now, const Multipliers& multipliers) {
     if (all_.size() > most_kept) all_.erase(all_.begin());
-    all_[now.arclength] = {margin(multipliers) > 0, now.tangent[now.u.size()] > 0,
-                           count_unstable(multipliers)};
+    const double margin_here = margin(multipliers);
+    all_[now.arclength] = {margin_here, now.tangent[now.u.size()] > 0, count_unstable(multipliers)};
   }
 
   // Whether the change from stable to unstable, or back, next to a place is one that a fold and the
@@ -126,24 +162,56 @@ class Places {
   bool is_explained(double arclength, const Multipliers& multipliers) const {
     const auto here = all_.find(arclength);
     if (here == all_.end()) return false;
-    auto before = here, beyond = std::next(here);
-    while (before != all_.begin() && before->second.stable == here->second.stable) --before;
-    while (beyond != all_.end() && beyond->second.stable == here->second.stable) ++beyond;
-    const bool is_beyond = beyond != all_.end() && (before->second.stable == here->second.stable ||
-                                                    beyond->first - arclength < arclength - before->first);
-    const Place& other = is_beyond ? beyond->second : before->second;
+    const Place& other = other_side(here)->second;
     const int change = std::abs(here->second.unstable - other.unstable);
     const bool fold = here->second.forward != other.forward;
     return (change == 1 && (fold || has_minus_one(multipliers))) ||
            (change == 2 && has_pair_on_circle(multipliers));
   }
 
+  // Whether the largest modulus goes across 1 there without a jump, however steeply: next to grazing it
+  // grows like a root, and a place is not near enough for it to be 1. The other side is then where the slope
+  // on this side leads.
+  bool is_steep(double arclength) const {
+    const auto here = all_.find(arclength);
+    if (here == all_.end()) return false;
+    const auto other = other_side(here);
+    const double ahead = other->first - arclength;
+    auto beside = here;
+    const auto is_near = [&] { return std::abs(beside->first - arclength) < std::abs(ahead); };
+    while (is_near()) {
+      if (beside == (ahead > 0 ? all_.begin() : std::prev(all_.end()))) return false;
+      beside = ahead > 0 ? std::prev(beside) : std::next(beside);
+      if (beside->second.stable() != here->second.stable()) return false;
+    }
+    if (beside == here) return false;  // there is no other side
+    const double slope = (here->second.margin - beside->second.margin) / (arclength - beside->first);
+    const double change = other->second.margin - here->second.margin;
+    return std::abs(change - slope * ahead) < steep_share * std::abs(change);
+  }
+
  private:
   struct Place {
-    bool stable, forward;  // forward: in the free parameter
+    double margin;
+    bool forward;  // in the free parameter
     int unstable;
+    bool stable() const { return margin > 0; }
   };
-  std::map<double, Place> all_;  // by arclength
+  using All = std::map<double, Place>;  // by arclength
+
+  // The nearest place on the other side of the change.
+  All::const_iterator other_side(All::const_iterator here) const {
+    const bool is = here->second.stable();
+    auto before = here, beyond = std::next(here);
+    while (before != all_.begin() && before->second.stable() == is) --before;
+    while (beyond != all_.end() && beyond->second.stable() == is) ++beyond;
+    const bool is_beyond =
+        beyond != all_.end() &&
+        (before->second.stable() == is || beyond->first - here->first < here->first - before->first);
+    return is_beyond ? beyond : before;
+  }
+
+  All all_;
 };
 
 }  // namespace
@@ -181,7 +249,8 @@ std::vector<continuation::Monitor> stability_monitors(const MultipliersAt& of_pe
               [of_map](const Accepted& now, const Multipliers& all) {
                 if (all.empty() || !(std::abs(1 - std::abs(all.front())) > jump)) return false;
                 const Multipliers* map = of_map(now);
-                return !(map && now.scratch.get<Places>().is_explained(now.arclength, *map));
+                const Places& places = now.scratch.get<Places>();
+                return !(map && places.is_explained(now.arclength, *map)) && !places.is_steep(now.arclength);
               }),
           of_all(of_half_period ? event_kinds::symmetry_breaking : event_kinds::period_doubling,
                  beside_minus_one, has_minus_one)};

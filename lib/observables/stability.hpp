@@ -1,6 +1,7 @@
 #pragma once
 // Stability of the solutions of harmonic balance: Floquet multipliers along them (time/floquet.hpp), their
-// error, and where they leave the unit circle.
+// error, and where they leave the unit circle. Of a structure with more than 100 degrees of freedom, those of
+// its 50 lowest natural modes, the others without inertia.
 //
 // The error is that of the neglected harmonics: the largest change of a multiplier by those of the refined
 // motion of the truncation estimate (truncation.hpp), plus that by the upper half of them, since the first
@@ -47,6 +48,9 @@ class StabilityAnalysis {
   const Multipliers& half_multipliers() const {
     return hill_ ? hill_->half_multipliers() : floquet_->half_multipliers();
   }
+  /// What the inertia of modes left out may change in a multiplier: as much as that of the upper half of
+  /// those kept. 0: none is left out.
+  double modal_error();
 
   /// Why there are none, or were none at one of the places so far, as the end of a sentence; empty: there
   /// were.
@@ -54,13 +58,17 @@ class StabilityAnalysis {
 
  private:
   bool prepare(const hbm::HbmProblem& problem, const continuation::Vector& p);
+  void go_to(const time::EquationOfMotion& equation);
   bool compute(const hbm::HbmProblem& problem, const continuation::Vector& p);
 
   continuation::Vector p_;
   bool by_hill_;
   std::optional<time::Floquet> floquet_;  // one of these
   std::optional<time::Hill> hill_;
+  std::optional<time::Floquet> coarse_;  // of a large structure: with half of the modes
   std::string unknown_;
+  double omega_ = 0;  // of the last place
+  std::optional<elements::Harmonics> harmonics_;
   std::vector<time::ElementCourse> courses_;
 };
 

@@ -51,8 +51,8 @@ bool falling(const std::complex<double>& a, const std::complex<double>& b) {
 }  // namespace
 
 struct Floquet::Impl {
-  Impl(const EquationOfMotion& of, double highest_natural, Impl* before)
-      : equation(of), highest(highest_natural) {
+  Impl(const EquationOfMotion& of, const ModesKept& modes_kept, Impl* before)
+      : equation(of), with_inertia(modes_kept) {
     const bool all_linear = std::none_of(
         equation.elements.begin(), equation.elements.end(),
         [](const auto& e) { return VaryingCoefficients::takes(*e.law) && !e.law->automata(e.fields); });
@@ -64,7 +64,7 @@ struct Floquet::Impl {
           before->equation.C == equation.C && before->equation.K == equation.K)
         phases = std::move(before->phases);
       else
-        phases.emplace(equation, std::move(all), highest);
+        phases.emplace(equation, std::move(all), with_inertia);
       return;
     }
     std::vector<LinearMotion::Part> stiffnesses;
@@ -365,7 +365,7 @@ struct Floquet::Impl {
   }
 
   const EquationOfMotion equation;
-  const double highest;
+  const ModesKept with_inertia;
   std::optional<LinearPhases> phases;  // of a structure without varying laws; then no W, V and Z
   continuation::Cholesky mass;
   std::vector<Part> parts;
@@ -388,14 +388,14 @@ struct Floquet::Impl {
   std::vector<std::complex<double>> multipliers, half_multipliers;
 };
 
-Floquet::Floquet(const EquationOfMotion& equation, double highest)
-    : impl_(std::make_unique<Impl>(equation, highest, nullptr)) {}
+Floquet::Floquet(const EquationOfMotion& equation, const ModesKept& kept)
+    : impl_(std::make_unique<Impl>(equation, kept, nullptr)) {}
 Floquet::~Floquet() = default;
 Floquet::Floquet(Floquet&&) noexcept = default;
 Floquet& Floquet::operator=(Floquet&&) noexcept = default;
 
 void Floquet::move_to(const EquationOfMotion& equation) {
-  impl_ = std::make_unique<Impl>(equation, impl_->highest, impl_.get());
+  impl_ = std::make_unique<Impl>(equation, impl_->with_inertia, impl_.get());
 }
 
 bool Floquet::compute(double omega, const elements::Harmonics& harmonics,

@@ -18,8 +18,8 @@
 // halved and squared. An antisymmetric motion is followed over half a period: its multipliers are the squares
 // of those of the map w(theta) -> -w(theta + pi).
 //
-// Where all laws are piecewise linear, degrees of freedom may have no mass, and natural modes above a limit
-// may be left out, whose flexibility remains: they have no multipliers.
+// Where all laws are piecewise linear, degrees of freedom may have no mass, and high natural modes may be
+// left out, whose flexibility remains: they have no multipliers.
 //
 // A slider that sticks throughout has a neutral multiplier 1, which is left out. As many multipliers are 0 as
 // sliders follow at once at some instant. Errors: those of the motion, and of the roundings of the period;
@@ -28,10 +28,10 @@
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/time/automaton_course.hpp>
 #include <arcslip/time/equation_of_motion.hpp>
+#include <arcslip/time/modes_kept.hpp>
 
 #include <complex>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <vector>
@@ -55,17 +55,15 @@ struct ElementCourse {
 class Floquet {
  public:
   /// Throws NoVariation, SingularMass (event_driven.hpp). The frequency, the forces and the harmonics of the
-  /// equation do not matter. highest: natural frequency, rad/s, above which modes have no inertia; only where
-  /// all laws are piecewise linear.
-  explicit Floquet(const EquationOfMotion& equation,
-                   double highest = std::numeric_limits<double>::infinity());
+  /// equation do not matter. kept: only where all laws are piecewise linear and K and C symmetric.
+  explicit Floquet(const EquationOfMotion& equation, const ModesKept& kept = {});
   ~Floquet();
   Floquet(Floquet&&) noexcept;
   Floquet& operator=(Floquet&&) noexcept;
 
-  /// Goes to another equation of the same elements, with the same `highest`. Throws as the constructor, and
-  /// is then as before. What was found of the structure in sets of modes is kept where its matrices and the
-  /// stiffnesses of its elements are the same, as where only forces or normal loads are others.
+  /// Goes to another equation of the same elements, with the modes kept as before. Throws as the constructor,
+  /// and is then as before. What was found of the structure in sets of modes is kept where its matrices and
+  /// the stiffnesses of its elements are the same, as where only forces or normal loads are others.
   void move_to(const EquationOfMotion& equation);
 
   /// omega: base frequency, rad/s; elements: as in the equation. False: there are none, as where the motion

@@ -79,7 +79,8 @@ Free free_modes(const EquationOfMotion& equation) {
 
 }  // namespace
 
-LinearPhases::LinearPhases(const EquationOfMotion& equation, std::vector<PhasePart> parts, double highest)
+LinearPhases::LinearPhases(const EquationOfMotion& equation, std::vector<PhasePart> parts,
+                           const ModesKept& kept)
     : parts_(std::move(parts)), memories_(equation.memory) {
   for (const PhasePart& part : parts_) {
     first_row_.push_back(static_cast<int>(rows_));
@@ -100,7 +101,10 @@ LinearPhases::LinearPhases(const EquationOfMotion& equation, std::vector<PhasePa
   Eigen::Index n = 0;
   const Matrix circulatory = equation.circulatory();
   const bool symmetric_parts = circulatory.size() == 0 && equation.C == equation.C.transpose();
-  while (n < natural_.size() && (!symmetric_parts || n < least_modes || natural_[n] <= highest)) ++n;
+  const auto keeps = [&](Eigen::Index k) {
+    return !symmetric_parts || k < least_modes || (natural_[k] <= kept.highest && k < kept.most);
+  };
+  while (n < natural_.size() && keeps(n)) ++n;
   if (n == 0) throw SingularMass("no degree of freedom has a mass");
   const Matrix V = free.V.leftCols(n);
   squares_ = free.squares.head(n);

@@ -29,6 +29,7 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/time/equation_of_motion.hpp>
+#include <arcslip/time/modes_kept.hpp>
 #include <arcslip/time/variation.hpp>
 
 #include <map>
@@ -48,10 +49,8 @@ struct PhasePart {
 
 class LinearPhases {
  public:
-  /// highest: natural frequency in rad/s of the structure without contacts above which modes have no inertia,
-  /// but for the first ten.
   /// Throws SingularMass where a motion without mass has a damper, or no spring of its own.
-  LinearPhases(const EquationOfMotion& equation, std::vector<PhasePart> parts, double highest);
+  LinearPhases(const EquationOfMotion& equation, std::vector<PhasePart> parts, const ModesKept& kept);
 
   const std::vector<PhasePart>& parts() const { return parts_; }
   /// The modes kept, n.

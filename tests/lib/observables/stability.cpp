@@ -47,6 +47,27 @@ ResponseBranch response(const scene::Scene& s, double from, double to) {
   return branches[0];
 }
 
+// A bar of unit length, mass and stiffness, held at one end and excited at the other.
+scene::Scene long_chain(int n, const std::string& elements) {
+  const std::string k = std::to_string(n), c = std::to_string(0.02 * n), last = "x" + std::to_string(n - 1);
+  std::string dofs, masses, springs, dampers;
+  for (int i = 0; i < n; ++i) {
+    const std::string comma = i == 0 ? "" : ", ", x = "x" + std::to_string(i), number = std::to_string(i);
+    const std::string place =
+        i == 0 ? R"("at": "x0")" : R"("between": ["x)" + std::to_string(i - 1) + R"(", ")" + x + R"("])";
+    dofs += comma + "\"" + x + "\"";
+    masses += comma + R"({"name": "m)" + number + R"(", "at": ")" + x + R"(", "value": )" +
+              std::to_string(1.0 / n) + "}";
+    springs += comma + R"({"name": "k)" + number + R"(", )" + place + R"(, "value": )" + k + "}";
+    dampers += comma + R"({"name": "c)" + number + R"(", )" + place + R"(, "value": )" + c + "}";
+  }
+  return scenes::parse(
+      R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {"dofs": [)" + dofs +
+      R"(], "masses": [)" + masses + R"(], "springs": [)" + springs + R"(], "dampers": [)" + dampers +
+      R"(]}, "elements": [)" + elements + R"(], "excitation": [{"name": "f", "at": ")" + last +
+      R"(", "cosine": 0.3}], "response": {"at": ")" + last + R"("}, "harmonics": {"order": 15}})");
+}
+
 // NLvib, example 03.
 scene::Scene masses_and_stop(int order) {
   auto s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
@@ -405,6 +426,19 @@ TEST_CASE("where the birth of slip is a fold, the fold tells the multiplier that
   CHECK(events(branch, "stability_lost").empty());
 }
 
+TEST_CASE("at a fold just after grazing a multiplier goes steeply through 1, and the fold alone tells it") {
+  // Next to grazing it grows like a root of the amplitude.
+  const auto s = scenes::example("unilateral_oscillator");
+  for (const double from : {0.3, 0.37, 0.45, 0.62}) {
+    CAPTURE(from);
+    const auto branch = response(s, from, 0.9);
+    const auto folds = events(branch, "fold");
+    REQUIRE_FALSE(folds.empty());
+    CHECK(reference::error(folds.back().point.omega, 0.6534401344692) < 1e-10);
+    CHECK(events(branch, "stability_lost").empty());
+  }
+}
+
 TEST_CASE("a branch whose stability is not known says why") {
   const auto s = contacts::plane_pad(5, 25, 8);
   const auto branch = response(s, 60, 75);
@@ -475,8 +509,8 @@ TEST_CASE("where slip is born, a self-excited structure that is unstable in stic
   }
 }
 
-TEST_CASE("structures that are too large for multipliers say so, and points have them on request") {
-  auto s = scenes::paper(3);
+TEST_CASE("points have multipliers on request") {
+  const auto s = scenes::paper(3);
   observables::PointSettings settings;
   settings.frequency = 20;
   CHECK_FALSE(observables::point_responses(s, settings).front().point.stability);
@@ -484,20 +518,61 @@ TEST_CASE("structures that are too large for multipliers say so, and points have
   const auto known = observables::point_responses(s, settings);
   REQUIRE(known.front().point.stability);
   CHECK(known.front().point.stability->unstable == 0);
-  for (int i = 0; i < 100; ++i) {
-    const std::string name = "b" + std::to_string(i);
-    const int dof = static_cast<int>(s.dofs.size());
-    s.dofs.push_back(name);
-    for (auto* parts : {&s.masses, &s.springs}) {
-      scene::Part part = parts->front();
-      part.name = (parts == &s.masses ? "m" : "k") + name;
-      part.directions = {{{dof, 1.0}}};
-      parts->push_back(part);
-    }
-  }
-  const auto unknown = observables::point_responses(s, settings);
-  REQUIRE(unknown.front().status == observables::Status::complete);
-  CHECK_FALSE(unknown.front().point.stability);
-  CHECK(unknown.front().doubt ==
-        "without its stability: the structure has 101 degrees of freedom, and at most 100 are supported");
+}
+
+TEST_CASE("a large structure has the multipliers of its low modes, with an error for the others") {
+  const auto s = long_chain(150, R"({"name": "d", "type": "jenkins", "at": "x70", "stiffness": 2,
+    "friction_coefficient": 0.5, "normal_load": 0.3}, {"name": "stop", "type": "gap_spring", "at": "x149",
+    "stiffness": 0.5, "gap": 0.3})");
+  const double omega = 1.5;
+  observables::PointSettings settings;
+  settings.frequency = omega;
+  settings.stability = true;
+  const auto response = observables::point_responses(s, settings).front();
+  REQUIRE(response.point.stability);
+  const auto& stability = *response.point.stability;
+  CHECK(response.point.elements.at(0).stick_percent < 99);
+  CHECK(response.point.amplitude > 0.35);  // beyond the gap
+  CHECK(stability.multipliers.size() <= 2 * 50 + 1);
+
+  // Of the same motion with all modes.
+  const auto model = std::make_shared<const model::Model>(model::build(s));
+  const auto at = observables::responses_at(model, omega);
+  REQUIRE_FALSE(at.u.empty());
+  const auto p = hbm::parameters_at(*at.problem, omega);
+  const auto evaluator = at.problem->hbm_evaluator();
+  evaluator->move_to(at.u.front(), p, continuation::Needs::residual);
+  std::vector<time::ElementCourse> courses;
+  time::courses_of(*at.problem, *evaluator, courses);
+  time::Floquet whole(time::equation_of_motion(*model, p));
+  REQUIRE(whole.compute(omega, at.problem->harmonics(), courses));
+  REQUIRE(whole.modes() == 150);
+  const double left_out = observables::distance(stability.multipliers, whole.multipliers());
+  CAPTURE(left_out, stability.error);
+  CHECK(left_out > 1e-7);
+  CHECK(left_out < stability.error);
+  CHECK(stability.error < 0.02);
+  CHECK(std::abs(std::abs(stability.multipliers[0]) - std::abs(whole.multipliers()[0])) < 2e-4);
+}
+
+TEST_CASE("structures that are too large for multipliers say so") {
+  const std::string told =
+      "without its stability: the structure has 101 degrees of freedom, and at most 100 are supported by "
+      "Hill's "
+      "method, with unsymmetric matrices and with laws that are not piecewise linear";
+  observables::PointSettings settings;
+  settings.frequency = 1.5;
+  settings.stability = true;
+  const auto cubic = observables::point_responses(
+      long_chain(101, R"({"name": "s", "type": "cubic_spring", "at": "x100", "stiffness": 1})"), settings);
+  REQUIRE(cubic.front().status == observables::Status::complete);
+  CHECK_FALSE(cubic.front().point.stability);
+  CHECK(cubic.front().doubt == told);
+  settings.stability.by_hill = true;
+  const auto by_hill = observables::point_responses(
+      long_chain(101, R"({"name": "s", "type": "gap_spring", "at": "x100", "stiffness": 1, "gap": 0.3})"),
+      settings);
+  REQUIRE(by_hill.front().status == observables::Status::complete);
+  CHECK_FALSE(by_hill.front().point.stability);
+  CHECK(by_hill.front().doubt == told);
 }

@@ -316,6 +316,13 @@ TEST_CASE("before each decomposition of many degrees of freedom it is asked whet
     CHECK(motion.reason == EndReason::stopped);
     CHECK(motion.time == 0);
     CHECK(asked == last);
+    // So has an orbit, without the derivatives of a motion that was not begun.
+    const EquationRates rates;
+    const Orbit orbit = events.orbit(at_rest(equation), &rates);
+    CHECK_FALSE(orbit.map.done);
+    CHECK(orbit.map.message.find("stopped by the caller at 0 s") == 0);
+    CHECK(orbit.by_parameter.size() == 0);
+    CHECK(asked == last);
   }
   asked = 0;
   EventDriven events(equation, limits);

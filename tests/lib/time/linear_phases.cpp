@@ -182,7 +182,7 @@ TEST_CASE(
     for (const double reach : {3.0, 6.0}) {
       CAPTURE(reach);
       const double harmonic = 5 * pair.equation.omega;
-      Floquet reduced(pair.equation, reach * harmonic), finer(pair.equation, 2 * reach * harmonic);
+      Floquet reduced(pair.equation, {reach * harmonic}), finer(pair.equation, {2 * reach * harmonic});
       REQUIRE(reduced.modes() < n);
       const auto found = along(pair, reduced);
       CHECK(static_cast<int>(found.size()) <= 2 * reduced.modes() + 2);
