@@ -98,6 +98,7 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
   Vector branch_outside;
   bool factors_fit = false;
   int blind_aims = 0;
+  bool end_tested = false;  // whether the branch is in the piece at `length`
   kink = from;
   Vector v = from.v;
   Prediction prediction(from.tangent, row);
@@ -156,7 +157,8 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
     if (inside == lower || outside - lower <= finest) return true;  // the piece ends here
     const bool stays = inside == upper;
     if (stays && ++blind_aims > most_blind_aims) return false;
-    const bool at_end = stays && blind_aims == 1 && upper == length;  // whether the piece ends at all
+    const bool at_end = stays && !end_tested && upper == length;  // whether the piece ends at all
+    end_tested = end_tested || at_end;
     const bool anew = stays && failed_from > 0 && upper - lower < retry_share * failed_from;
     const double aim = at_end || anew ? upper : stays ? blind_aim() : inside - margin * (inside - lower);
     prediction.at(aim, v);
@@ -171,11 +173,13 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
       error = 0;
       continue;
     }
-    if (at_end) return false;
+    if (aim == length) return false;  // it does not
     if (anew) {
       upper = outside_at;
       beyond = branch_outside;
       failed_from = 0;
+      blind_aims = 0;
+      end_tested = upper < length;
     }
     error = stays ? 0 : prediction.error(aim - lower);
     error_of_cubic = prediction.is_cubic();

@@ -320,6 +320,7 @@ std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor
     return locate(monitor, beyond, to);
   if (!probe.linearize(kink.v, probe.border_row(from.tangent))) return nearer_end(monitor, from, to);
   evaluate(monitors_, probe, kink);
+  if (changes_sign(from, kink)) take_limits(from, to.arclength - from.arclength, kink);
   if ((kink.monitors[monitor] > 0) != positive) return locate(monitor, from, kink);
   return at_kink(monitor, kink, beyond);
 }

@@ -17,6 +17,8 @@ namespace {
 constexpr double guesses[] = {0.5, 0.1, 0.9};         // shares of a step: initial guesses of branch points
 constexpr int most_kinks = 16;                        // in one step
 constexpr double just_beyond[] = {1e-9, 1e-6, 1e-3};  // of a step: distances to the far side of a kink
+constexpr double just_before = 1e-9;                  // of a step: distance to the near side of a kink,
+constexpr double beyond_its_error = 1e-11;            // and of |u|
 constexpr double beside_step = 0.1;                   // of a step: a branch point this close lies on it
 constexpr double beyond_step = 1e-4;                  // tolerance beyond its ends, for rounding
 // Of a monitor's change over a step, and of the largest dp/ds for the type of a branch point: smaller values
@@ -198,19 +200,23 @@ bool EventLocator::locate_corner(const CurvePoint& from, double length, CurvePoi
 // value just before it.
 void EventLocator::take_limits(const CurvePoint& from, double length, CurvePoint& kink) {
   Corrector& probe = this->probe();
-  const double way = just_beyond[0] * length;
+  const double way = std::max(just_before * length, beyond_its_error * probe.norm_u(kink.v));
   CurvePoint before = kink;
   before.v -= way * from.tangent;
-  if (!(kink.arclength - from.arclength > way) ||
+  before.arclength -= way;
+  if (!(before.arclength > from.arclength) ||
       !probe.correct(before.v, probe.border_row(from.tangent), false).converged || !settle(probe, before) ||
       before.piece != kink.piece)
     return;
-  if (before.orientation != kink.orientation) before.reverse();
+  const bool against = from.orientation != 0 ? before.orientation != from.orientation
+                                             : probe.dot(before.tangent, from.tangent) < 0;
+  if (against) before.reverse();
   evaluate(monitors_, probe, before);
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
     if (!changes(m, from, kink, Crossing::any) || changes(m, from, before, Crossing::any)) continue;
     kink.monitors[m] = before.monitors[m];
     kink.tangent = before.tangent;
+    kink.orientation = before.orientation;
   }
 }
 

@@ -24,19 +24,21 @@ constexpr double jump = 1e-5;            // of the largest modulus across 1
 constexpr double steep_share = 0.5;      // of a change, not made by the slope beside it: more is a jump
 constexpr std::size_t most_kept = 1000;  // places
 
-bool same_but_frequency(const continuation::Vector& a, const continuation::Vector& b) {
+// Whether the structure is the same with both parameters: the frequency moves it where a rotor turns with it.
+bool same_structure(const model::Model& model, const continuation::Vector& a, const continuation::Vector& b) {
   if (a.size() != b.size()) return false;
+  const bool turns = std::any_of(model.matrices.begin(), model.matrices.end(),
+                                 [](const auto& part) { return part.parameter == model::frequency; });
   for (Eigen::Index k = 0; k < a.size(); ++k)
-    if (k != model::frequency && a[k] != b[k]) return false;
+    if ((k != model::frequency || turns) && a[k] != b[k]) return false;
   return true;
 }
 
-bool may_leave_modes_out(const time::EquationOfMotion& equation) {
-  return equation.K == equation.K.transpose() && equation.C == equation.C.transpose() &&
-         std::all_of(equation.elements.begin(), equation.elements.end(),
-                     [](const time::TimeElement& element) {
-                       return element.law->automata(element.fields).has_value();
-                     });
+bool may_leave_modes_out(const model::Model& model, const time::EquationOfMotion& equation) {
+  return model::is_symmetric(model) && std::all_of(equation.elements.begin(), equation.elements.end(),
+                                                   [](const time::TimeElement& element) {
+                                                     return element.law->automata(element.fields).has_value();
+                                                   });
 }
 
 }  // namespace
@@ -56,19 +58,19 @@ bool StabilityAnalysis::move_to(const hbm::HbmProblem& problem, continuation::In
 }
 
 bool StabilityAnalysis::prepare(const hbm::HbmProblem& problem, const continuation::Vector& p) {
-  if (same_but_frequency(p, p_)) return floquet_ || hill_;
+  const model::Model& model = problem.model();
+  if (same_structure(model, p, p_)) return floquet_ || hill_;
   p_ = p;
   hill_.reset();
-  const model::Model& model = problem.model();
   try {
     if (model.dofs > most_dofs && model.stop && model.stop())
       throw time::NoVariation("the search was stopped");
     const auto equation = time::equation_of_motion(model, p);
-    if (model.dofs > most_dofs && (by_hill_ || !may_leave_modes_out(equation)))
+    if (model.dofs > most_dofs && (by_hill_ || !may_leave_modes_out(model, equation)))
       throw time::NoVariation(
           "the structure has " + std::to_string(model.dofs) + " degrees of freedom, and at most " +
           std::to_string(most_dofs) +
-          " are supported by Hill's method, with unsymmetric matrices and with laws that are "
+          " are supported by Hill's method, with unsymmetric matrices or with laws that are "
           "not piecewise linear");
     go_to(equation);
     return true;
@@ -162,7 +164,9 @@ class Places {
   bool is_explained(double arclength, const Multipliers& multipliers) const {
     const auto here = all_.find(arclength);
     if (here == all_.end()) return false;
-    const Place& other = other_side(here)->second;
+    const auto at = other_side(here);
+    if (at == all_.end()) return false;
+    const Place& other = at->second;
     const int change = std::abs(here->second.unstable - other.unstable);
     const bool fold = here->second.forward != other.forward;
     return (change == 1 && (fold || has_minus_one(multipliers))) ||
@@ -170,12 +174,13 @@ class Places {
   }
 
   // Whether the largest modulus goes across 1 there without a jump, however steeply: next to grazing it
-  // grows like a root, and a place is not near enough for it to be 1. The other side is then where the slope
-  // on this side leads.
+  // grows like a root, and no place is so near that it is 1. The other side is then where the slope on this
+  // side leads.
   bool is_steep(double arclength) const {
     const auto here = all_.find(arclength);
     if (here == all_.end()) return false;
     const auto other = other_side(here);
+    if (other == all_.end()) return false;
     const double ahead = other->first - arclength;
     auto beside = here;
     const auto is_near = [&] { return std::abs(beside->first - arclength) < std::abs(ahead); };
@@ -184,7 +189,6 @@ class Places {
       beside = ahead > 0 ? std::prev(beside) : std::next(beside);
       if (beside->second.stable() != here->second.stable()) return false;
     }
-    if (beside == here) return false;  // there is no other side
     const double slope = (here->second.margin - beside->second.margin) / (arclength - beside->first);
     const double change = other->second.margin - here->second.margin;
     return std::abs(change - slope * ahead) < steep_share * std::abs(change);
@@ -199,7 +203,7 @@ class Places {
   };
   using All = std::map<double, Place>;  // by arclength
 
-  // The nearest place on the other side of the change.
+  // The nearest place on the other side of the change; none: the end.
   All::const_iterator other_side(All::const_iterator here) const {
     const bool is = here->second.stable();
     auto before = here, beyond = std::next(here);
@@ -208,7 +212,8 @@ class Places {
     const bool is_beyond =
         beyond != all_.end() &&
         (before->second.stable() == is || beyond->first - here->first < here->first - before->first);
-    return is_beyond ? beyond : before;
+    if (is_beyond) return beyond;
+    return before->second.stable() == is ? all_.end() : before;
   }
 
   All all_;
@@ -250,7 +255,9 @@ std::vector<continuation::Monitor> stability_monitors(const MultipliersAt& of_pe
                 if (all.empty() || !(std::abs(1 - std::abs(all.front())) > jump)) return false;
                 const Multipliers* map = of_map(now);
                 const Places& places = now.scratch.get<Places>();
-                return !(map && places.is_explained(now.arclength, *map)) && !places.is_steep(now.arclength);
+                const bool is_one = all.front().imag() == 0 && all.front().real() > 0;  // told by its fold
+                return !(map && places.is_explained(now.arclength, *map)) &&
+                       !(is_one && places.is_steep(now.arclength));
               }),
           of_all(of_half_period ? event_kinds::symmetry_breaking : event_kinds::period_doubling,
                  beside_minus_one, has_minus_one)};

@@ -14,7 +14,8 @@
 // A multiplier 1 is a fold, or a branch point (continuation/events/monitor.hpp). Where a phase of contact is
 // born or vanishes, multipliers may jump: stability_lost is a jump of the largest modulus across 1 that no
 // other event there explains, by how many multipliers are unstable on both sides: a fold and a multiplier -1
-// explain a change by 1, a pair on the circle one by 2.
+// explain a change by 1, a pair on the circle one by 2. A positive one that goes through 1 steeply but
+// without a jump, as at a fold just after grazing, is no loss of its own.
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/hbm/problem.hpp>
@@ -49,7 +50,7 @@ class StabilityAnalysis {
     return hill_ ? hill_->half_multipliers() : floquet_->half_multipliers();
   }
   /// What the inertia of modes left out may change in a multiplier: as much as that of the upper half of
-  /// those kept. 0: none is left out.
+  /// those kept changes those of the lower half. 0: none is left out.
   double modal_error();
 
   /// Why there are none, or were none at one of the places so far, as the end of a sentence; empty: there

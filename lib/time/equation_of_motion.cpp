@@ -61,6 +61,8 @@ EquationOfMotion equation_of_motion(const model::Model& model, const continuatio
   equation.M = model::mass_matrix(model, p);
   equation.C = model::damping_matrix(model, p);
   equation.K = model::stiffness_matrix(model, p);
+  if (model::is_symmetric(model))  // to the last bit
+    for (Matrix* A : {&equation.M, &equation.C, &equation.K}) *A = 0.5 * (*A + A->transpose()).eval();
   for (const model::NonlinearPart& part : model.elements) {
     if (part.law->set_valued())
       throw NotInTime(reasons::set_valued,

@@ -11,6 +11,8 @@
 namespace arcslip::time {
 namespace {
 
+constexpr double least_size = 1e-200;  // of a parameter that has one
+
 using elements::Automaton;
 using elements::Guard;
 using elements::Law;
@@ -93,29 +95,35 @@ ElementRates sum(const Numbers& here, std::initializer_list<std::pair<double, co
   return {std::move(all.automata), std::move(all.sliders)};
 }
 
-// Along the rates of its fields. A field of 0 is a limit of most laws, beyond which they have other numbers.
+// Along the rates of its fields. A field of 0 is a limit of most laws, below which they have other numbers:
+// then from the side on which it is positive.
 std::optional<ElementRates> rates_of(const TimeElement& element, const std::vector<double>& rates) {
   if (std::all_of(rates.begin(), rates.end(), [](double rate) { return rate == 0; })) return ElementRates{};
-  double h = std::numeric_limits<double>::infinity();
-  bool at_limit = false;
+  double h = std::numeric_limits<double>::infinity(), limit = 0;  // 1, -1: the side of a limit
   for (std::size_t k = 0; k < rates.size(); ++k) {
     if (rates[k] == 0) continue;
     const double field = std::abs(element.fields[k]);
-    at_limit = at_limit || field == 0;
+    if (field == 0 && limit == 0) limit = rates[k] > 0 ? 1 : -1;
     h = std::min(h, continuation::difference_step * (field == 0 ? 1 : field) / std::abs(rates[k]));
   }
-  const auto beside = [&](double distance) {
+  const Numbers here = numbers_of(element, element.fields);
+  const auto at = [&](double distance) -> std::optional<Numbers> {
     std::vector<double> fields = element.fields;
     for (std::size_t k = 0; k < rates.size(); ++k) fields[k] += distance * rates[k];
-    return numbers_of(element, fields);
+    Numbers numbers = numbers_of(element, fields);
+    if (!same_modes(here, numbers)) return {};
+    return numbers;
   };
-  const Numbers here = numbers_of(element, element.fields), above = beside(h), below = beside(-h);
-  const bool up = same_modes(here, above), down = same_modes(here, below);
-  if (up && down && !at_limit) return sum(here, {{0.5 / h, &above}, {-0.5 / h, &below}});
-  if (!up && !down) return {};
-  const double side = up ? h : -h;
-  const Numbers twice = beside(2 * side);
-  return sum(here, {{2 / side, up ? &above : &below}, {-0.5 / side, &twice}});
+  const auto one_sided = [&](double side) -> std::optional<ElementRates> {
+    const auto once = at(side * h), twice = at(2 * side * h);
+    if (!once || !twice) return {};
+    return sum(here, {{2 / (side * h), &*once}, {-0.5 / (side * h), &*twice}});
+  };
+  if (limit != 0) return one_sided(limit);
+  const auto above = at(h), below = at(-h);
+  if (above && below) return sum(here, {{0.5 / h, &*above}, {-0.5 / h, &*below}});
+  auto rate = one_sided(1);
+  return rate ? rate : one_sided(-1);
 }
 
 Matrix rate_of(const Matrix& above, const Matrix& below, double distance) {
@@ -171,7 +179,9 @@ double EquationRates::base_at(const EquationOfMotion& equation, double t) const 
 
 std::optional<EquationRates> equation_rates(const model::Model& model, const continuation::Vector& p, int k) {
   EquationRates rates;
-  const double h = p[k] != 0 ? std::abs(p[k]) : 1;
+  const double scale = model.parameters[static_cast<std::size_t>(k)].scale,
+               size = std::max(std::abs(p[k]), scale);
+  const double h = size > least_size ? size : 1;
   continuation::Vector above_p = p, below_p = p;
   above_p[k] += h;
   below_p[k] -= h;

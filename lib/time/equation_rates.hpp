@@ -8,8 +8,8 @@
 //   d/domega (c cos n omega t + s sin n omega t) = n t (s cos n omega t - c sin n omega t)
 //
 // The numbers of an equation are polynomials of degree 2 at most in each parameter but the frequency, so that
-// their central differences are exact in any distance. Those of the laws' modes are differentiated by their
-// fields, to some 11 digits of each number.
+// their central differences are exact in any distance, to rounding. Those of the laws' modes are
+// differentiated by their fields, to some 11 digits of each number.
 
 #include <arcslip/time/equation_of_motion.hpp>
 
@@ -29,7 +29,7 @@ struct ElementRates {
 };
 
 struct EquationRates {
-  double omega = 0;                   // of the base frequency
+  double omega = 0;                   // d omega/dp of the base frequency
   Matrix M, C, K;                     // empty: 0
   std::vector<HarmonicForce> forces;  // of the amplitudes; their sum
   std::vector<BaseMotion> base;       // likewise

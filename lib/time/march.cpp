@@ -98,12 +98,31 @@ void March::begin(const MotionState& start, double time, Columns carried, const 
     contact.rates = changes ? &rates->automata[of_element] : nullptr;
     contact.slider_rates = changes && contact.slider >= 0 ? &rates->sliders[of_element] : nullptr;
     contact.now = 0;
+    if (derivatives && contact.slider >= 0 && Z_(contact.memory, 0) != start.z[contact.memory]) draw(contact);
     enter(contact);
   }
   t_ = from_ = time;
   events_ = pieces_ = 0;
   moved_ = false;
   reason_ = EndReason::reached;
+}
+
+// A slider that Law::begin() moved to its limit is where it is when it follows there.
+void March::draw(const Contact& contact) {
+  const Vector q = contact.directions.transpose() * X_.col(0);
+  const auto& modes = contact.automaton.modes;
+  const auto distance = [&](const elements::Mode& mode) {
+    return mode.rests ? std::numeric_limits<double>::infinity()
+                      : std::abs(mode.z_q.dot(q.transpose()) + mode.z_0 - Z_(contact.memory, 0));
+  };
+  const auto nearest = std::min_element(
+      modes.begin(), modes.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  if (nearest->rests) return;
+  auto by = Z_.row(contact.memory).tail(Z_.cols() - 1);
+  by = nearest->z_q * (contact.directions.transpose() * X_.rightCols(X_.cols() - 1));
+  if (!contact.rates) return;
+  const elements::Mode& rates = contact.rates->modes[static_cast<std::size_t>(nearest - modes.begin())];
+  by[by.size() - 1] += rates.z_q.dot(q.transpose()) + rates.z_0;
 }
 
 // The force independent of the displacement within a mode: that of its memory if it rests, otherwise that of

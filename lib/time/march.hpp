@@ -32,14 +32,14 @@ struct Contact {
   bool follows() const { return memory >= 0 && !mode().rests; }
 };
 
-/// What a march carries: the motion; its change with x, x' and z of the start; and that with a parameter.
-enum class Columns { motion, start, start_and_parameter };
+/// What a march carries: the motion, or also its change with x, x' and z of the start.
+enum class Columns { motion, start };
 
 class March {
  public:
   March(const EquationOfMotion& equation, const EventLimits& limits);
 
-  /// by: the rates of the parameter, which outlive the march.
+  /// by: with Columns::start, its change with a parameter of these rates, too, which outlive the march.
   void begin(const MotionState& start, double time, Columns columns, const EquationRates* by = nullptr);
 
   /// Finds the next piece, from time() over s() * h(), at most to `to`. False where the march has to end:
@@ -74,6 +74,7 @@ class March {
 
  private:
   void locate();
+  void draw(const Contact& contact);
   void enter(Contact& contact);  // its mode
   void settle(const Contact& contact);
 

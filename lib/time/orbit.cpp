@@ -146,7 +146,7 @@ PeriodMap EventDriven::map(const MotionState& start, double to) {
 
 Orbit EventDriven::orbit(const MotionState& start, const EquationRates* by) {
   const double period = equation_.period();
-  march_->begin(start, 0, by ? Columns::start_and_parameter : Columns::motion, by);
+  march_->begin(start, 0, by ? Columns::start : Columns::motion, by);
   Ranges ranges(*march_);
   Phases phases(*march_);
   Extremes extremes;
@@ -174,7 +174,7 @@ Orbit EventDriven::orbit(const MotionState& start, const EquationRates* by) {
   map.end = march_->state();
   map.resting = ranges.resting();
   orbit.phases = phases.number(map.resting);
-  if (!by || march_->piece().stopped()) return orbit;
+  if (!by || !map.done) return orbit;
   map.monodromy = march_->monodromy();
   orbit.by_parameter = march_->by_parameter(-period / equation_.omega * by->omega);
   for (RestingSlider& slider : map.resting) {

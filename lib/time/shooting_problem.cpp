@@ -3,8 +3,8 @@
 #include <arcslip/time/periodicity.hpp>
 
 #include <optional>
+#include <sstream>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace arcslip::time {
@@ -16,7 +16,8 @@ using continuation::Out;
 
 namespace {
 
-constexpr double beside = 1e-9;  // of the scale of a parameter
+constexpr double just_beside = 1e-9;    // of the scale of a parameter
+constexpr double least_scale = 1e-200;  // of one that has a size
 
 }  // namespace
 
@@ -61,11 +62,12 @@ Evaluated ShootingEvaluator::move_to(In X, In p, Needs needs) {
   set_parameters(p);
   X_ = X;
   std::optional<EquationRates> rates;
+  int k = by_.parameter;
   if (needs == Needs::jacobian) {
-    rates = equation_rates(problem_.model(), p_, by_.parameter);
+    rates = equation_rates(problem_.model(), p_, k);
     if (!rates) {
-      by_.parameter = model::frequency;  // which no mode depends on
-      rates = equation_rates(problem_.model(), p_, by_.parameter);
+      k = model::frequency;  // which no mode depends on
+      rates = equation_rates(problem_.model(), p_, k);
     }
   }
   orbit_ = integrator_->orbit(unstacked_start(), rates ? &*rates : nullptr);
@@ -75,7 +77,7 @@ Evaluated ShootingEvaluator::move_to(In X, In p, Needs needs) {
   defect_by_start(orbit_.map, std::get<Matrix>(J_));
   X_of_J_ = X_;
   p_of_J_ = p_;
-  set_by(by_.parameter, orbit_);
+  set_by(k, orbit_);
   return Evaluated::ok;
 }
 
@@ -103,15 +105,14 @@ const ShootingEvaluator::ByParameter& ShootingEvaluator::by(int k) const {
   auto rates = equation_rates(problem_.model(), p, k);
   if (!rates) {
     // Where an element has other modes beside p than at p, as at a normal load of 0, those beside it.
-    p[k] += beside * parameter.scale;
+    p[k] += just_beside * (parameter.scale > least_scale ? parameter.scale : 1);
     rates = equation_rates(problem_.model(), p, k);
   }
-  if (!rates)
-    throw std::runtime_error(
-        "there is no derivative by "
-        " + parameter.name + "
-        " at " +
-        std::to_string(p_of_J_[k]));
+  if (!rates) {
+    std::ostringstream text;
+    text << "there is no derivative by \"" << parameter.name << "\" at " << p_of_J_[k];
+    throw std::runtime_error(text.str());
+  }
   EventDriven integrator(equation_of_motion(problem_.model(), p), problem_.limits());
   const Orbit orbit = integrator.orbit(unstacked(X_of_J_, problem_.model().dofs), &*rates);
   if (!orbit.map.done) throw std::runtime_error(orbit.map.message);

@@ -38,7 +38,7 @@ class ShootingEvaluator final : public continuation::Evaluator {
   std::uint64_t piece() const override { return orbit_.phases; }
 
   /// At the last place, with derivatives.
-  /// The derivatives by a parameter are those by the one that was last asked for.
+  /// Its derivatives by a parameter are those by the one that the last Jacobian carried along.
   const Orbit& orbit();
   /// Largest |response| there, m.
   double amplitude() const { return orbit_.amplitude; }

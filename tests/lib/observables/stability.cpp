@@ -559,7 +559,7 @@ TEST_CASE("structures that are too large for multipliers say so") {
   const std::string told =
       "without its stability: the structure has 101 degrees of freedom, and at most 100 are supported by "
       "Hill's "
-      "method, with unsymmetric matrices and with laws that are not piecewise linear";
+      "method, with unsymmetric matrices or with laws that are not piecewise linear";
   observables::PointSettings settings;
   settings.frequency = 1.5;
   settings.stability = true;

@@ -208,9 +208,12 @@ TEST_CASE("a branch over the speed loses its stability where internal damping de
                       {"C.mtx", matrix_market(planes((outer + inner) * one))},
                       {"N.mtx", matrix_market(planes(Complex(0, -inner) * one))},
                       {"names.csv", "name,row\nx,1\ny,2\n"}};
-  const scene::Scene s = read(scene_of(R"(, "damping": "C.mtx", "circulatory": "N.mtx")",
-                                       R"(, "rotation": {"name": "rotor", "speed": 1})", along_x),
-                              folder);
+  const auto with = [&](const std::string& rotation) {
+    return read(scene_of(R"(, "damping": "C.mtx", "circulatory": "N.mtx")",
+                         R"(, "rotation": {"name": "rotor", )" + rotation + "}", along_x),
+                folder);
+  };
+  const scene::Scene s = with(R"("speed": 1)");
   const double onset = std::sqrt(k / m) * (1 + outer / inner);
   observables::ParameterRange range{.over = "rotor.speed", .from = 1, .to = 2 * onset, .frequency = 3};
   range.stability = true;
@@ -227,6 +230,18 @@ TEST_CASE("a branch over the speed loses its stability where internal damping de
       CHECK(event.point.over == Approx(onset).epsilon(1e-8));
     }
   CHECK(found == 1);
+  // The same where the rotor turns with the excitation.
+  const auto response =
+      observables::frequency_response(with(R"("engine_order": 1)"), {0.5 * onset, 2 * onset, true}).at(0);
+  REQUIRE(response.points.size() > 5);
+  for (const auto& point : response.points) {
+    REQUIRE(point.stability);
+    CHECK(point.stability->unstable == (point.omega < onset ? 0 : 2));
+  }
+  REQUIRE(std::count_if(response.events.begin(), response.events.end(),
+                        [](const auto& event) { return event.kind == "neimark_sacker"; }) == 1);
+  for (const auto& event : response.events)
+    if (event.kind == "neimark_sacker") CHECK(event.point.omega == Approx(onset).epsilon(1e-8));
 }
 
 TEST_CASE("a rotor that only circulatory forces hold does not drift") {

@@ -300,6 +300,18 @@ TEST_CASE("a map of many degrees of freedom asks whether to go on within a piece
   CHECK(map.message.find("stopped by the caller at 0 s") == 0);
 }
 
+TEST_CASE("an orbit that is stopped before its first piece has no derivatives") {
+  EquationOfMotion equation = masses(Vector::Ones(300));
+  equation.K.setIdentity();
+  EventLimits limits;
+  limits.stop = [] { return true; };
+  EventDriven events(equation, limits);
+  const EquationRates rates;
+  const Orbit orbit = events.orbit(at_rest(equation), &rates);
+  CHECK_FALSE(orbit.map.done);
+  CHECK(orbit.by_parameter.size() == 0);
+}
+
 TEST_CASE("before each decomposition of many degrees of freedom it is asked whether to go on") {
   constexpr int n = 400;
   EquationOfMotion equation = masses(Vector::LinSpaced(n, 1, 2));
