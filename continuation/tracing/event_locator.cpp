@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -187,6 +188,7 @@ constexpr int samples_beside = 4;           // of q on each side of an extremum,
 constexpr double sample_share = 1e-2;       // of the step, between them
 constexpr double spreads = 2;               // of the samples: more is not rounding
 constexpr double spreads_at_kink = 8;       // of two samples
+constexpr double other_trials[] = {0.5, 0.25, 0.1, 0.75, 0.9, 0.97, 0.99};  // shares of a section
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
 // The value of a monitor at the share s of a section, corrected onto the branch from the cubic between its
@@ -206,17 +208,17 @@ class OnSection {
         place_(to) {}
 
   double operator()(double s) {
-    hermite(from_.v, from_.tangent, to_.v, to_.tangent, length_, s, place_.v);
-    correction_ = probe_.correct(place_.v, row_, factors_);
-    if (!correction_.converged) correction_ = probe_.correct(place_.v, row_, false);
-    // A tangent from factors near the solution may be less accurate than the zero requires.
-    if (!correction_.converged ||
-        (correction_.last > linearized_there && !probe_.linearize(place_.v, row_)) || !settle(probe_, place_))
-      return fail();
+    hermite(from_.v, from_.tangent, to_.v, to_.tangent, length_, s, guess_);
+    if (!go_to_branch(factors_) && !go_to_branch(false)) {
+      // Next to a kink the cubic may lie beyond it, where it leads elsewhere: between places that are known.
+      guess_between(s);
+      if (!go_to_branch(false)) return fail();
+    }
     factors_ = true;
     const bool smooth = to_.piece == from_.piece && place_.piece == from_.piece;
     if (smooth && probe_.dot(place_.tangent, chord_) < least_along_) return fail();  // on another branch
     place_.arclength = from_.arclength + distance(probe_, from_.v, place_.v);
+    known_[s] = place_.v;
     const double f = value_of(monitor_, accepted(probe_, place_));
     failed_ = std::isnan(f);
     took(f, place_.piece);
@@ -231,6 +233,7 @@ class OnSection {
   bool changes_piece() const { return positive_piece_ != negative_piece_; }
 
   bool failed() const { return failed_; }
+  void forget_failure() { failed_ = factors_ = false; }
   const CurvePoint& place() const { return place_; }
   const Correction& correction() const { return correction_; }
 
@@ -250,16 +253,37 @@ class OnSection {
     return 0;
   }
 
+  // From guess_, along the plane through it. A tangent from factors near the solution may be less accurate
+  // than the zero requires.
+  bool go_to_branch(bool factors) {
+    place_.v = guess_;
+    correction_ = probe_.correct(place_.v, row_, factors);
+    return correction_.converged && distance(probe_, guess_, place_.v) <= length_ &&
+           (correction_.last <= linearized_there || probe_.linearize(place_.v, row_)) &&
+           settle(probe_, place_);
+  }
+
+  void guess_between(double s) {
+    double below = 0, above = 1;
+    const Vector *lower = &from_.v, *upper = &to_.v;
+    for (const auto& [at, v] : known_) {
+      if (at <= s && at > below) below = at, lower = &v;
+      if (at > s && at < above) above = at, upper = &v;
+    }
+    guess_ = *lower + (s - below) / (above - below) * (*upper - *lower);
+  }
+
   Corrector& probe_;
   const Monitor& monitor_;
   const CurvePoint &from_, &to_;
   double length_;
-  Vector chord_, row_;
+  Vector chord_, row_, guess_;
   double least_along_;
   CurvePoint place_;
   Correction correction_;
   bool factors_ = false, failed_ = false;
   std::uint64_t positive_piece_ = 0, negative_piece_ = 0;
+  std::map<double, Vector> known_;  // places on the section
 };
 
 // The rounding of a quantity next to its extremum at s: its spread over a part of the section in which it
@@ -338,7 +362,21 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Curv
   if (value.failed()) return nearer_end(monitor, from, to);
   value.took(b, to.piece);
   const auto at = [&](double s) { return value(s); };
-  const Root root = find_root(at, begin, at_begin, 1, b, value.tolerance(options_.event_tolerance));
+  const double tolerance = value.tolerance(options_.event_tolerance);
+  double end = 1, at_end = b;
+  Root root = find_root(at, begin, at_begin, end, at_end, tolerance);
+  // A trial may leave the branch, as next to a kink: others narrow the bracket.
+  for (double s : other_trials) {
+    if (!value.failed()) break;
+    if (!(s > begin && s < end)) continue;
+    value.forget_failure();
+    const double here = value(s);
+    if (value.failed()) continue;
+    const bool is_end = (here > 0) == (at_end > 0);
+    (is_end ? end : begin) = s;
+    (is_end ? at_end : at_begin) = here;
+    root = find_root(at, begin, at_begin, end, at_end, tolerance);
+  }
   if (value.failed()) return nearer_end(monitor, from, to);
   const double left = value(root.x);
   if (value.failed()) return nearer_end(monitor, from, to);

@@ -388,6 +388,32 @@ TEST_CASE(
   CHECK(nearest < 1e-7);
 }
 
+TEST_CASE(
+    "over a gap, the fold just after grazing is at one place whatever the steps, and that of the exact "
+    "motion") {
+  auto s = scenes::example("unilateral_oscillator");
+  s.harmonics = {};
+  s.harmonics.order = 21;
+  const auto fold = [&](double from, double to, ResponseMethod method) {
+    const auto branches = observables::parameter_response(s, {"stop.gap", from, to, 0.7, false, method});
+    REQUIRE(branches.size() == 1);
+    const auto folds = events(branches[0], "fold");
+    REQUIRE(folds.size() == 2);
+    return from < to ? folds[1] : folds[0];
+  };
+  const auto exact = fold(0, 10, ResponseMethod::shooting);
+  CHECK(exact.located);
+  for (const auto& [from, to] :
+       {std::pair{0.0, 10.0}, {0.0, 5.0}, {0.1, 10.0}, {0.0, 4.0}, {0.2, 8.0}, {5.0, 0.1}}) {
+    CAPTURE(from, to);
+    const auto found = fold(from, to, ResponseMethod::harmonic_balance);
+    CHECK(found.located);
+    CHECK(error(found.point.over, 0.433728199724) < 1e-10);
+    CHECK(error(found.point.over, exact.point.over) < 1e-6);
+    CHECK(error(found.point.amplitude, exact.point.amplitude) < 1e-6);
+  }
+}
+
 TEST_CASE("over a parameter, a branch by shooting that cannot be, or is stopped, tells why") {
   const auto failed =
       shot_over(two_masses_and_stop(R"({"name": "s", "type": "cubic_spring", "at": "x1", "stiffness": 1})"),

@@ -136,19 +136,21 @@ TEST_CASE("derivatives of shooting with every law that has pieces") {
 }
 
 TEST_CASE("at a normal load of 0, where a damper has other modes, the derivatives are those beside it") {
-  const Place at = place(scenes::paper(15, 0), 20 * scenes::hertz);
+  Place at = place(scenes::paper(15, 0), 20 * scenes::hertz);
+  at.X[0] *= 0.5;  // so that the largest displacement is not that of the start
   const int load = model::parameter_index(at.problem->model(), "damper.normal_load");
   time::ShootingEvaluator here(*at.problem), beside(*at.problem);
   REQUIRE(here.move_to(at.X, at.p, Needs::jacobian) == continuation::Evaluated::ok);
   Vector dF(at.X.size()), p = at.p;
   here.parameter_derivative(load, dF);
-  const double h = 1e-5;
+  REQUIRE(std::abs(here.amplitude_derivative(load)) > 0);
+  const double h = 1e-8;  // each reversal sticks for a time that grows with its root
   p[load] = h;
   REQUIRE(beside.move_to(at.X, p, Needs::residual) == continuation::Evaluated::ok);
   const Vector difference = (beside.residual() - here.residual()) / h;
-  CHECK((dF - difference).head(2).norm() < 1e-4 * difference.head(2).norm());
+  CHECK((dF - difference).norm() < 2e-3 * difference.norm());
   CHECK(std::abs(here.amplitude_derivative(load) - (beside.amplitude() - here.amplitude()) / h) <
-        1e-4 * std::abs(here.amplitude_derivative(load)));
+        2e-3 * std::abs(here.amplitude_derivative(load)));
 }
 
 TEST_CASE("derivatives of shooting with a period of two of the excitation") {
