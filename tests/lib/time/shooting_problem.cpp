@@ -43,8 +43,8 @@ Place place(const scene::Scene& s, double omega, double beside = 1e-3) {
   return found;
 }
 
-void check_derivatives(const scene::Scene& s, double omega) {
-  const Place at = place(s, omega);
+void check_derivatives(const scene::Scene& s, double omega, double beside_it = 1e-3) {
+  const Place at = place(s, omega, beside_it);
   const auto wrong = continuation::check_jacobian(*at.problem, at.X, at.p);
   CAPTURE(wrong.message, wrong.row, wrong.column, wrong.given, wrong.difference);
   CHECK(wrong.relative < 1e-6);  // of differences; columns have entries in m and in m/s
@@ -107,31 +107,75 @@ TEST_CASE("derivatives of shooting are those of differences, by the state and by
 }
 
 TEST_CASE("derivatives of shooting with every law that has pieces") {
-  for (const char* element : {
-           R"({"name": "e", "type": "contact_2d", "tangential": {"at": "a"}, "normal": {"at": "b"},
-               "tangential_stiffness": 0.7, "normal_stiffness": 0.5, "friction_coefficient": 0.4,
-               "normal_load": 0.3})",
-           R"({"name": "e", "type": "contact_2d", "tangential": {"at": "a"}, "normal": {"at": "b"},
-               "tangential_stiffness": 0.7, "normal_stiffness": 0.5, "friction_coefficient": 0.2,
-               "normal_load": 9})",
-           R"({"name": "e", "type": "iwan", "at": "a", "stiffness": 0.8, "slip_force": 0.5, "sliders": 4})",
-           R"({"name": "e", "type": "jenkins", "at": "a", "stiffness": 0.6, "friction_coefficient": 0.4,
-               "normal_load": 8, "offset": "static"})",
-           R"({"name": "e", "type": "bilinear_spring", "at": "b", "stiffness": 0.2, "stiffness_beyond": 1.5,
-               "corner": 0.4})",
-           R"({"name": "e", "type": "piecewise_linear_spring", "at": "b", "factor": 1.2,
-               "table": [[-0.5, -0.3], [0, 0], [0.4, 0.5], [0.9, 2]]})"}) {
-    CAPTURE(element);
-    const auto s = scenes::parse(std::string(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+  const std::string some = R"({"name": "f", "at": "b", "cosine": 0.5, "sine": 0.2},
+                              {"name": "g", "at": "a", "harmonic": 0, "cosine": 0.1})";
+  const std::string much = R"({"name": "f", "at": "b", "cosine": 2, "sine": 0.2},
+                              {"name": "g", "at": "a", "cosine": 1})";
+  const std::string mostly_static = R"({"name": "f", "at": "b", "cosine": 0.25, "sine": 0.1},
+                                       {"name": "g", "at": "a", "harmonic": 0, "cosine": 1.5})";
+  const std::string contact = R"("type": "contact_2d", "tangential": {"at": "a"}, "normal": {"at": "b"},
+                                 "tangential_stiffness": 0.7, "normal_stiffness": 0.5)";
+  for (const auto& [element, excitation] :
+       {std::pair{contact + R"(, "friction_coefficient": 0.4, "normal_load": 0.3)", some},
+        {contact + R"(, "friction_coefficient": 0.4, "normal_load": 0.3)", much},  // opens
+        {contact + R"(, "friction_coefficient": 0.2, "normal_load": 9)", some},
+        {contact + R"(, "friction_coefficient": 0.7, "normal_load": 0.3)", much},  // and sticks again
+        {R"("type": "iwan", "at": "a", "stiffness": 0.8, "slip_force": 0.5, "sliders": 4)", some},
+        {R"("type": "jenkins", "at": "a", "stiffness": 0.6, "friction_coefficient": 0.4, "normal_load": 1,
+               "offset": "static")",
+         mostly_static},  // held at its limit
+        {R"("type": "jenkins", "direction": {"a": -1}, "stiffness": 0.6, "friction_coefficient": 0.4,
+               "normal_load": 1, "offset": "static")",
+         mostly_static},  // at the other one
+        {R"("type": "jenkins", "at": "a", "stiffness": 0.6, "friction_coefficient": 0.4, "normal_load": 8,
+               "offset": "static")",
+         some},
+        {R"("type": "bilinear_spring", "at": "b", "stiffness": 0.2, "stiffness_beyond": 1.5, "corner": 0.4)",
+         some},
+        {R"("type": "piecewise_linear_spring", "at": "b", "factor": 1.2,
+               "table": [[-0.5, -0.3], [0, 0], [0.4, 0.5], [0.9, 2]])",
+         some}}) {
+    CAPTURE(element, excitation);
+    const auto s =
+        scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
       "structure": {"dofs": ["a", "b"],
         "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 0.6}],
         "springs": [{"name": "ka", "at": "a", "value": 1}, {"name": "kab", "between": ["a", "b"], "value": 0.8}],
         "dampers": [{"name": "ca", "at": "a", "value": 0.05}, {"name": "cab", "between": ["a", "b"], "value": 0.02}]},
-      "elements": [)") + element +
-                                 R"(], "excitation": [{"name": "f", "at": "b", "cosine": 0.5, "sine": 0.2},
-        {"name": "g", "at": "a", "harmonic": 0, "cosine": 0.1}], "harmonics": {"order": 15},
+      "elements": [{"name": "e", )" +
+                      element + R"(}], "excitation": [)" + excitation + R"(], "harmonics": {"order": 15},
       "response": {"at": "b"}})");
-    for (const double omega : {0.6, 1.1}) check_derivatives(s, omega);
+    // A slider that is held at its limit is next to slip: farther from that kink.
+    const double beside_it = excitation == mostly_static ? 0.1 : 1e-3;
+    for (const double omega : {0.6, 1.1}) check_derivatives(s, omega, beside_it);
+  }
+}
+
+TEST_CASE("the instant at which a contact lands and sticks moves with its load") {
+  const auto s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["a", "b"],
+      "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 0.6}],
+      "springs": [{"name": "ka", "at": "a", "value": 1}, {"name": "kab", "between": ["a", "b"], "value": 0.8}],
+      "dampers": [{"name": "ca", "at": "a", "value": 0.05}, {"name": "cab", "between": ["a", "b"], "value": 0.02}]},
+    "elements": [{"name": "e", "type": "contact_2d", "tangential": {"at": "a"}, "normal": {"at": "b"},
+      "tangential_stiffness": 0.7, "normal_stiffness": 0.5, "friction_coefficient": 1.2, "normal_load": 0.3}],
+    "excitation": [{"name": "f", "at": "b", "cosine": 2, "sine": 0.2}, {"name": "g", "at": "a", "cosine": 1}],
+    "harmonics": {"order": 15}, "response": {"at": "b"}})");
+  for (const double omega : {0.6, 1.1}) {
+    CAPTURE(omega);
+    const Place at = place(s, omega);
+    const int load = model::parameter_index(at.problem->model(), "e.normal_load");
+    time::ShootingEvaluator evaluator(*at.problem);
+    REQUIRE(evaluator.move_to(at.X, at.p, Needs::jacobian) == continuation::Evaluated::ok);
+    Vector dF(at.X.size()), p = at.p, difference = Vector::Zero(at.X.size());
+    evaluator.parameter_derivative(load, dF);
+    const double h = 1e-6;
+    for (const double side : {1.0, -1.0}) {
+      p[load] = at.p[load] + side * h;
+      REQUIRE(evaluator.move_to(at.X, p, Needs::residual) == continuation::Evaluated::ok);
+      difference += side / (2 * h) * evaluator.residual();
+    }
+    CHECK((dF - difference).norm() < 1e-6 * dF.norm());
   }
 }
 
