@@ -1,9 +1,10 @@
 #pragma once
 // Location of events between two neighbouring points of a branch: sign changes of monitors.
 //
-// The zero is bracketed on the cubic between the points, with each trial corrected onto the branch. A step
-// across kinks is divided there into smooth sections: an event lies within a section, or at a kink, if the
-// values of the monitor on its two sides differ in sign.
+// The zero is bracketed on the cubic between the points, with each trial corrected onto the branch; one that
+// leads elsewhere, as next to a kink, starts between the places that are known. A step across kinks is
+// divided there into smooth sections: an event lies within a section, or at a kink, if the values of the
+// monitor on its two sides differ in sign.
 //
 // A monitor that is the slope of a quantity q has spurious zeros from rounding where q is flat. Zeros
 // alternate between maxima and minima of q, and two neighbours q_1, q_2 with |q_1 - q_2| <= r cancel and are
