@@ -13,7 +13,7 @@ constexpr double farther = 8;          // factor after a prediction short of the
 constexpr double farthest_cubic = 8;   // of the interval of its two points
 constexpr double first_margin = 1e-2;
 constexpr double chord_share = 1e-3;      // accuracy of the end of the piece on a chord
-constexpr double retry_share = 1.0 / 32;  // of the distance from which a correction failed, to try it anew
+constexpr double retry_share = 1.0 / 64;  // of the distance from which a correction failed, to try it anew
 constexpr int most_kink_corrections = 60;
 constexpr int most_blind_aims = 40;  // where no prediction leaves the piece
 

@@ -191,7 +191,11 @@ bool EventLocator::locate_corner(const CurvePoint& from, double length, CurvePoi
   else if (!probe().linearize(kink.v, probe().border_row(from.tangent)))  // it is `from` itself
     return false;
   evaluate(monitors_, probe(), kink);
-  if (changes_sign(from, kink)) take_limits(from, length, kink);
+  if (changes_sign(from, kink)) {
+    take_limits(from, length, kink);
+    probe().linearize(kink.v, probe().border_row(from.tangent));
+    probe().move_to(kink.v);
+  }
   return true;
 }
 
@@ -215,8 +219,6 @@ void EventLocator::take_limits(const CurvePoint& from, double length, CurvePoint
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
     if (!changes(m, from, kink, Crossing::any) || changes(m, from, before, Crossing::any)) continue;
     kink.monitors[m] = before.monitors[m];
-    kink.tangent = before.tangent;
-    kink.orientation = before.orientation;
   }
 }
 
