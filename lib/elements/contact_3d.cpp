@@ -1,6 +1,7 @@
 #include <arcslip/elements/contact_3d.hpp>
 
 #include <arcslip/elements/offset_option.hpp>
+#include <arcslip/elements/plane_friction.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -42,15 +43,13 @@ constexpr scene::Field all_fields[] = {
              "normal_stiffness"},
 };
 
-struct ContactLaw {
-  double k_t, k_n, mu, N_0;
-
+struct ContactLaw : PlaneFriction::Contact {
   double load(double x_n) const { return std::max(N_0 + k_n * x_n, 0.0); }
 };
 
-ContactLaw contact(Fields fields) {
-  return {fields[tangential_stiffness], fields[normal_stiffness], fields[friction_coefficient],
-          fields[normal_load]};
+ContactLaw law_of(Fields fields) {
+  return {{fields[tangential_stiffness], fields[normal_stiffness], fields[friction_coefficient],
+           fields[normal_load]}};
 }
 
 Vector2d turned(const Vector2d& n) {
@@ -162,7 +161,7 @@ scene::file::KeysOf<OffsetOption> option_keys() {
   return keys;
 }
 
-class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
+class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw>, public PlaneFriction {
  public:
   Contact3d() : KeyedPart(option_keys()) {}
   std::string_view name() const override { return "contact_3d"; }
@@ -172,14 +171,15 @@ class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
   std::span<const std::string_view> slots() const override { return all_slots; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
   bool options_bring_fields() const override { return false; }
+  Contact contact(Fields fields) const override { return law_of(fields); }
 
   bool antisymmetric() const override { return false; }
   bool has_contact() const override { return true; }
   bool tells_contact() const override { return true; }
   bool has_normal_load() const override { return true; }
-  double normal_load_at(Fields fields, double x_n) const override { return contact(fields).load(x_n); }
+  double normal_load_at(Fields fields, double x_n) const override { return law_of(fields).load(x_n); }
   Traits traits(Fields fields, int direction) const override {
-    const ContactLaw law = contact(fields);
+    const ContactLaw law = law_of(fields);
     const double limit = law.mu * std::max(law.N_0, 0.0);
     if (direction == normal)
       return {.stiffness = law.k_n,
@@ -217,7 +217,7 @@ class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
   }
 
   void begin(Fields fields, In q, Out z, StepEnd& at) const override {
-    const ContactLaw law = contact(fields);
+    const ContactLaw law = law_of(fields);
     const double N = law.load(q[normal]), limit = law.mu * N;
     const Vector2d elastic = law.k_t * (q.head<2>() - z.head<2>());
     const double size = elastic.norm();
@@ -234,7 +234,7 @@ class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
 
   // Along the step the radius and N are linear: the contact opens or closes once at most.
   void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const override {
-    const ContactLaw law = contact(fields);
+    const ContactLaw law = law_of(fields);
     const double k = law.k_t, ratio = law.mu * law.k_n / k;
     const Vector2d d = dq.head<2>(), y = start.f.head<2>() / k;
     const double N_begin = law.N_0 + law.k_n * start.q[normal], dN = law.k_n * dq[normal];
@@ -268,7 +268,7 @@ class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
   }
 
   double stored(Fields fields, In q, In z) const override {
-    const ContactLaw law = contact(fields);
+    const ContactLaw law = law_of(fields);
     const double x = q[normal];
     const double energy = 0.5 * law.k_t * (q.head<2>() - z.head<2>()).squaredNorm();
     if (law.k_n == 0) return energy;

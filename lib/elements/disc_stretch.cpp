@@ -121,7 +121,7 @@ void DiscStretch::integrate() {
 void DiscStretch::differentiate_full_stick() {
   by_.setZero();
   dw_.setZero();
-  phases_.centre().derivative(*disc_, dw_.leftCols(3 * c_));
+  phases_.centre().derivative(dw_.leftCols(3 * c_));
   for (int i = 0; i < 2; ++i) {
     by_.block(i * c_, i * c_, c_, c_).diagonal().setOnes();
     by_.row(i * c_) -= dw_.row(i);

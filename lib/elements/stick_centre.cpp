@@ -98,26 +98,28 @@ std::optional<StickMargin> stick_margin(const DiscInstant& a, const DiscInstant&
 
 StickCentre::StickCentre(const Harmonics& harmonics)
     : harmonics_(harmonics),
+      disc_(harmonics),
+      varying_(harmonics.size(), 3),
       samples_(static_cast<std::size_t>(12 * harmonics.order + 48)),
       excess_(samples_.size()) {}
 
-StickCentre::Point StickCentre::point(const Disc& disc, double theta) const {
-  const DiscPoint p = disc.at(theta);
+StickCentre::Point StickCentre::point(double theta) const {
+  const DiscPoint p = disc_.at(theta);
   return {theta, p.x, p.h};
 }
 
 // The local maximum of the excess near an angle.
-double StickCentre::climb(const Disc& disc, double theta) const {
+double StickCentre::climb(double theta) const {
   const double reach = turn_angle / static_cast<double>(samples_.size()), begin = theta;
-  double value = Excess(disc.at(theta), w_).value;
+  double value = Excess(disc_.at(theta), w_).value;
   for (int i = 0; i < 30; ++i) {
-    const Excess at(disc.at(theta), w_);
+    const Excess at(disc_.at(theta), w_);
     double step = at.d2 < 0 ? -at.d1 / at.d2 : (at.d1 > 0 ? reach / 8 : -reach / 8);
     step = std::clamp(step, begin - 1.5 * reach - theta, begin + 1.5 * reach - theta);
-    double next = Excess(disc.at(theta + step), w_).value;
+    double next = Excess(disc_.at(theta + step), w_).value;
     for (int halvings = 0; next < value && halvings < 40; ++halvings) {
       step *= 0.5;
-      next = Excess(disc.at(theta + step), w_).value;
+      next = Excess(disc_.at(theta + step), w_).value;
     }
     if (next < value) break;
     theta += step;
@@ -129,7 +131,7 @@ double StickCentre::climb(const Disc& disc, double theta) const {
 
 // Where the excess is largest: the maximum near each sample that may hide it. At a point that coincides with
 // w the excess has a cone: on both sides of it.
-StickCentre::Point StickCentre::farthest(const Disc& disc) {
+StickCentre::Point StickCentre::farthest() {
   const std::size_t count = samples_.size();
   const double reach = turn_angle / static_cast<double>(count);
   for (std::size_t k = 0; k < count; ++k) excess_[k] = excess(samples_[k], w_);
@@ -137,7 +139,7 @@ StickCentre::Point StickCentre::farthest(const Disc& disc) {
       static_cast<std::size_t>(std::max_element(excess_.begin(), excess_.end()) - excess_.begin());
   Point best = samples_[top];
   const auto try_from = [&](double theta) {
-    const Point at = point(disc, climb(disc, theta));
+    const Point at = point(climb(theta));
     if (excess(at, w_) > excess(best, w_)) best = at;
   };
   for (std::size_t k = 0; k < count; ++k) {
@@ -145,7 +147,7 @@ StickCentre::Point StickCentre::farthest(const Disc& disc) {
     if (at < before || at < after) continue;
     if (at + 2 * at - before - after < excess(best, w_)) continue;
     try_from(samples_[k].theta);
-    const DiscPoint p = disc.at(samples_[k].theta);
+    const DiscPoint p = disc_.at(samples_[k].theta);
     if ((p.x - w_).norm() > reach * p.v.norm()) continue;
     const double beside = std::clamp(p.ddh > 0 ? p.v.norm() / p.ddh : reach, 0.0, reach);
     try_from(samples_[k].theta - beside);
@@ -176,7 +178,7 @@ void StickCentre::solve(std::vector<Point>& basis) {
         const auto decides = [&](const Point& one, const Point& two, const Point& other) {
           const StickMargin margin = stick_margin(one, two);
           return excess(other, margin.w) <=
-                 margin.r + 1e-15 * (std::abs(margin.r) + other.h + other.x.norm());
+                 margin.r + 1e-15 * (std::abs(margin.r) + std::abs(other.h) + other.x.norm());
         };
         if (decides(a, b, c) || decides(a, c, b) || decides(b, c, a)) continue;
         if (const auto margin = stick_margin(a, b, c)) take(*margin, {a, b, c});
@@ -187,11 +189,18 @@ void StickCentre::solve(std::vector<Point>& basis) {
 }
 
 void StickCentre::find(const Disc& disc) {
-  const double size = disc.motion_bound(0);
+  mean_x_ = disc.mean();
+  mean_h_ = disc.coefficients(2)[0];
+  for (int i = 0; i < 3; ++i) varying_.col(i) = disc.coefficients(i);
+  varying_.row(0).setZero();
+  unit_ = disc.motion_bound(0) > 0 ? disc.motion_bound(0) : 1;
+  varying_ /= unit_;
+  disc_.set(varying_.col(0), varying_.col(1), varying_.col(2));
+  const double size = disc_.motion_bound(0);
   active_.clear();
-  w_ = disc.mean();
+  w_.setZero();
   for (std::size_t k = 0; k < samples_.size(); ++k)
-    samples_[k] = point(disc, turn_angle * static_cast<double>(k) / static_cast<double>(samples_.size()));
+    samples_[k] = point(turn_angle * static_cast<double>(k) / static_cast<double>(samples_.size()));
   const auto least = std::min_element(samples_.begin(), samples_.end(),
                                       [](const Point& a, const Point& b) { return a.h < b.h; });
   if (!(size > 0)) {
@@ -202,7 +211,7 @@ void StickCentre::find(const Disc& disc) {
   r_ = -least->h;
   std::vector<Point> basis{*least};
   for (int i = 0; i < exchanges; ++i) {
-    const Point next = farthest(disc);
+    const Point next = farthest();
     if (!(excess(next, w_) > r_ + rounding * size)) break;
     const double before = r_;
     basis.push_back(next);
@@ -210,17 +219,17 @@ void StickCentre::find(const Disc& disc) {
     if (!(r_ > before)) break;
   }
   for (const Point& at : basis) active_.push_back(at.theta);
-  polish(disc);
+  polish();
 }
 
 // Neighbouring points are one maximum. Two have to be opposite, which the values alone decide poorly.
-void StickCentre::polish(const Disc& disc) {
+void StickCentre::polish() {
   const double same = 0.5 * turn_angle / static_cast<double>(samples_.size());
   std::vector<double> distinct;
   for (const double theta : active_) {
     const bool known = std::any_of(distinct.begin(), distinct.end(), [&](double other) {
       return std::abs(std::remainder(theta - other, turn_angle)) < same &&
-             Excess(disc.at(theta), w_).n.dot(Excess(disc.at(other), w_).n) > 0.5;
+             Excess(disc_.at(theta), w_).n.dot(Excess(disc_.at(other), w_).n) > 0.5;
     });
     if (!known) distinct.push_back(theta);
   }
@@ -236,9 +245,9 @@ void StickCentre::polish(const Disc& disc) {
       Eigen::Vector3d e;
       for (int k = 0; k < 3; ++k) {
         double& theta = active_[static_cast<std::size_t>(k)];
-        const Excess here(disc.at(theta), w_);
+        const Excess here(disc_.at(theta), w_);
         if (here.d2 < 0) theta -= std::clamp(here.d1 / here.d2, -same, same);
-        const Excess at(disc.at(theta), w_);
+        const Excess at(disc_.at(theta), w_);
         A.row(k) << -at.n.transpose(), -1;
         e[k] = at.value - r_;
       }
@@ -249,9 +258,9 @@ void StickCentre::polish(const Disc& disc) {
     } else {
       Eigen::Matrix<double, 5, 5> A = Eigen::Matrix<double, 5, 5>::Zero();
       Eigen::Matrix<double, 5, 1> e;
-      Excess at[2] = {{disc.at(active_[0]), w_}, {disc.at(active_[1]), w_}};
+      Excess at[2] = {{disc_.at(active_[0]), w_}, {disc_.at(active_[1]), w_}};
       for (int k = 0; k < 2; ++k) {
-        const DiscPoint p = disc.at(active_[static_cast<std::size_t>(k)]);
+        const DiscPoint p = disc_.at(active_[static_cast<std::size_t>(k)]);
         const double across = at[k].t.dot(p.v);
         e[k] = at[k].value - r_;
         A.row(k) << -at[k].n.transpose(), -1, 0, 0;
@@ -272,12 +281,12 @@ void StickCentre::polish(const Disc& disc) {
         active_[static_cast<std::size_t>(k)] += std::clamp(step[3 + k], -same, same);
       change = step.head<3>().norm();
     }
-    settled = change <= rounding * disc.motion_bound(0);
+    settled = change <= rounding * disc_.motion_bound(0);
     if (!std::isfinite(change)) break;
   }
   // Newton's method may have left for somewhere else.
-  if (!settled || !((w_ - w).norm() <= 1e-2 * disc.motion_bound(0)) ||
-      !(std::abs(r_ - r) <= 1e-6 * disc.motion_bound(0))) {
+  if (!settled || !((w_ - w).norm() <= 1e-2 * disc_.motion_bound(0)) ||
+      !(std::abs(r_ - r) <= 1e-6 * disc_.motion_bound(0))) {
     w_ = w;
     r_ = r;
     active_ = angles;
@@ -285,7 +294,7 @@ void StickCentre::polish(const Disc& disc) {
   }
 }
 
-void StickCentre::derivative(const Disc& disc, Eigen::Ref<Eigen::MatrixXd> dw) const {
+void StickCentre::derivative(Eigen::Ref<Eigen::MatrixXd> dw) const {
   const Eigen::Index c = harmonics_.size();
   dw.setZero();
   if (active_.size() < 2) {
@@ -306,7 +315,7 @@ void StickCentre::derivative(const Disc& disc, Eigen::Ref<Eigen::MatrixXd> dw) c
     Eigen::MatrixXd rows(3, 3 * c);
     for (int k = 0; k < 3; ++k) {
       const double theta = active_[static_cast<std::size_t>(k)];
-      const Excess at(disc.at(theta), w_);
+      const Excess at(disc_.at(theta), w_);
       A.row(k) << at.n.transpose(), 1;
       rows.row(k) = row_of(at, Basis(harmonics_, theta));
     }
@@ -316,10 +325,10 @@ void StickCentre::derivative(const Disc& disc, Eigen::Ref<Eigen::MatrixXd> dw) c
   }
   Eigen::Matrix<double, 5, 5> A = Eigen::Matrix<double, 5, 5>::Zero();
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(5, 3 * c);
-  const Excess at[2] = {{disc.at(active_[0]), w_}, {disc.at(active_[1]), w_}};
+  const Excess at[2] = {{disc_.at(active_[0]), w_}, {disc_.at(active_[1]), w_}};
   for (int k = 0; k < 2; ++k) {
     const double theta = active_[static_cast<std::size_t>(k)];
-    const DiscPoint p = disc.at(theta);
+    const DiscPoint p = disc_.at(theta);
     const Basis basis(harmonics_, theta);
     const double across = at[k].t.dot(p.v);
     A.row(k) << -at[k].n.transpose(), -1, 0, 0;

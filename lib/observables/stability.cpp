@@ -63,16 +63,15 @@ bool StabilityAnalysis::prepare(const hbm::HbmProblem& problem, const continuati
   p_ = p;
   hill_.reset();
   try {
-    if (model.dofs > most_dofs && model.stop && model.stop())
-      throw time::NoVariation("the search was stopped");
     const auto equation = time::equation_of_motion(model, p);
-    if (model.dofs > most_dofs && (by_hill_ || !may_leave_modes_out(model, equation)))
-      throw time::NoVariation(
-          "the structure has " + std::to_string(model.dofs) + " degrees of freedom, and at most " +
-          std::to_string(most_dofs) +
-          " are supported by Hill's method, with unsymmetric matrices or with laws that are "
-          "not piecewise linear");
-    go_to(equation);
+    if (equation.dofs() > most_dofs)
+      go_to_large(model, equation);
+    else if (by_hill_)
+      hill_.emplace(equation);
+    else if (floquet_)
+      floquet_->move_to(equation);
+    else
+      floquet_.emplace(equation);
     return true;
   } catch (const time::NoVariation& without) {
     unknown_ = without.what();
@@ -86,22 +85,23 @@ bool StabilityAnalysis::prepare(const hbm::HbmProblem& problem, const continuati
   return false;
 }
 
-void StabilityAnalysis::go_to(const time::EquationOfMotion& equation) {
-  if (by_hill_) {
-    hill_.emplace(equation);
-    return;
+// On its low modes, which both analyses share; their decompositions take long.
+void StabilityAnalysis::go_to_large(const model::Model& model, const time::EquationOfMotion& equation) {
+  if (by_hill_ || !may_leave_modes_out(model, equation))
+    throw time::NoVariation("the structure has " + std::to_string(model.dofs) +
+                            " degrees of freedom, and at most " + std::to_string(most_dofs) +
+                            " are supported by Hill's method, with unsymmetric matrices or with laws that "
+                            "are not piecewise linear");
+  if (floquet_ && floquet_->has_matrices_of(equation)) {
+    floquet_->move_to(equation);
+    coarse_->move_to(equation);
+  } else {
+    const bool stopped = model.stop && model.stop();
+    const auto modes = stopped ? nullptr : time::natural_modes(equation, model.stop);
+    if (!modes) throw time::NoVariation("their computation was stopped");
+    floquet_.emplace(equation, time::ModesKept{.most = modes_kept}, modes);
+    coarse_.emplace(equation, time::ModesKept{.most = modes_kept / 2}, modes);
   }
-  const bool is_large = equation.dofs() > most_dofs;
-  const auto move = [&](std::optional<time::Floquet>& floquet, int modes) {
-    if (floquet)
-      floquet->move_to(equation);
-    else if (is_large)
-      floquet.emplace(equation, time::ModesKept{.most = modes});
-    else
-      floquet.emplace(equation);
-  };
-  move(floquet_, modes_kept);
-  if (is_large) move(coarse_, modes_kept / 2);
 }
 
 bool StabilityAnalysis::compute(const hbm::HbmProblem& problem, const continuation::Vector& p) {

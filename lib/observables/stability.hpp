@@ -59,7 +59,7 @@ class StabilityAnalysis {
 
  private:
   bool prepare(const hbm::HbmProblem& problem, const continuation::Vector& p);
-  void go_to(const time::EquationOfMotion& equation);
+  void go_to_large(const model::Model& model, const time::EquationOfMotion& equation);
   bool compute(const hbm::HbmProblem& problem, const continuation::Vector& p);
 
   continuation::Vector p_;

@@ -37,11 +37,11 @@ struct Part {
   bool rests() const { return memory >= 0 && mode().rests; }
 };
 
-// Of the mode of parts[of], or a reversal of hysteretic law `of`.
+// Of the mode of parts[of], or of the memory of a varying law.
 struct Change {
   double theta;  // from the start
   std::size_t of, index;
-  bool reversal = false;
+  bool varying = false;
 };
 
 bool falling(const std::complex<double>& a, const std::complex<double>& b) {
@@ -51,7 +51,8 @@ bool falling(const std::complex<double>& a, const std::complex<double>& b) {
 }  // namespace
 
 struct Floquet::Impl {
-  Impl(const EquationOfMotion& of, const ModesKept& modes_kept, Impl* before)
+  Impl(const EquationOfMotion& of, const ModesKept& modes_kept, std::shared_ptr<const NaturalModes> modes,
+       Impl* before)
       : equation(of), with_inertia(modes_kept) {
     const bool all_linear = std::none_of(
         equation.elements.begin(), equation.elements.end(),
@@ -60,11 +61,12 @@ struct Floquet::Impl {
     for (std::size_t e = 0; e < equation.elements.size(); ++e) add(static_cast<int>(e));
     if (all_linear) {
       auto all = phase_parts();
-      if (before && before->phases && before->phases->parts() == all && before->equation.M == equation.M &&
-          before->equation.C == equation.C && before->equation.K == equation.K)
+      const bool same = before && before->phases && before->has_matrices_of(equation);
+      if (same && before->phases->parts() == all)
         phases = std::move(before->phases);
       else
-        phases.emplace(equation, std::move(all), with_inertia);
+        phases.emplace(equation, std::move(all), with_inertia,
+                       same ? before->phases->natural_modes() : std::move(modes));
       return;
     }
     std::vector<LinearMotion::Part> stiffnesses;
@@ -76,6 +78,10 @@ struct Floquet::Impl {
     over_mass_K = mass.solve(equation.K);
     over_mass_C = mass.solve(equation.C);
     for (Part& part : parts) part.over_mass = mass.solve(part.directions);
+  }
+
+  bool has_matrices_of(const EquationOfMotion& of) const {
+    return equation.M == of.M && equation.C == of.C && equation.K == of.K;
   }
 
   std::vector<PhasePart> phase_parts() const {
@@ -100,7 +106,7 @@ struct Floquet::Impl {
       return;
     }
     if (!VaryingCoefficients::takes(*element.law))
-      throw NoVariation("the memory of \"" + element.name + "\" is not piecewise linear");
+      throw NoVariation("the memory of \"" + element.name + "\" is of an unknown kind");
     varying.add(element, e, mass.solve(element.directions));
   }
 
@@ -108,7 +114,8 @@ struct Floquet::Impl {
                const std::vector<ElementCourse>& elements, const GoOn& go_on) {
     omega = base_frequency;
     span = harmonics.span();
-    if (!varying.follow(omega, harmonics, elements) || !follow(harmonics, elements)) return false;
+    if (!varying.follow(omega, fastest_mode, harmonics, elements) || !follow(harmonics, elements))
+      return false;
     begin();
     if (phases)
       phases->begin(modes_now(), kept);
@@ -151,10 +158,8 @@ struct Floquet::Impl {
       for (std::size_t k = 0; k < part.course.changes.size(); ++k)
         changes.push_back({part.course.changes[k].theta, i, k});
     }
-    for (std::size_t i = 0; i < varying.hystereses(); ++i)
-      for (std::size_t k = 0; k < varying.course(i).turns().size(); ++k)
-        for (double theta = varying.course(i).turns()[k].theta; theta < turn; theta += span)
-          changes.push_back({theta, i, k, true});
+    for (std::size_t i = 0; i < varying.changes().size(); ++i)
+      changes.push_back({varying.changes()[i].theta, i, 0, true});
     std::stable_sort(changes.begin(), changes.end(),
                      [](const Change& a, const Change& b) { return a.theta < b.theta; });
     const auto length = [&](std::size_t k) {
@@ -172,7 +177,7 @@ struct Floquet::Impl {
     int fewest = std::numeric_limits<int>::max();
     double its_length = 0;
     for (std::size_t k = 0; k < changes.size(); ++k) {
-      if (!changes[k].reversal) {
+      if (!changes[k].varying) {
         Part& part = parts[changes[k].of];
         resting -= part.rests() ? 1 : 0;
         part.now = part.course.changes[changes[k].index].to;
@@ -193,18 +198,17 @@ struct Floquet::Impl {
                      [](const Change& a, const Change& b) { return a.theta < b.theta; });
     while (!changes.empty() && changes.back().theta >= span) changes.pop_back();
     breaks.clear();
-    for (std::size_t i = 0; i < varying.hystereses(); ++i)
-      for (const double theta : varying.course(i).breaks()) {
-        const double from_start = std::fmod(theta - start, span);
-        breaks.push_back(from_start < 0 ? from_start + span : from_start);
-      }
+    for (const double theta : varying.breaks()) {
+      const double from_start = std::fmod(theta - start, span);
+      breaks.push_back(from_start < 0 ? from_start + span : from_start);
+    }
     std::sort(breaks.begin(), breaks.end());
     return true;
   }
 
   void begin() {
     kept.clear();
-    zeros = 0;
+    zeros = varying.following_at(start);
     for (Part& part : parts) {
       part.now = part.course.first;
       for (const ModeChange& change : part.course.changes)
@@ -220,15 +224,14 @@ struct Floquet::Impl {
   bool begin_varying(const elements::Harmonics& harmonics) {
     const Eigen::Index n = equation.dofs();
     const auto memories = 2 * n + static_cast<Eigen::Index>(kept.size());
-    const auto starts = memories + static_cast<Eigen::Index>(varying.hystereses());
+    const auto starts = memories + varying.free_at(start);
     W.setZero(starts, n);
     V.setZero(starts, n);
     Z.setZero(starts, equation.memory);
     W.topRows(n).setIdentity();
     V.middleRows(n, n).setIdentity();
     for (std::size_t k = 0; k < kept.size(); ++k) Z(2 * n + static_cast<Eigen::Index>(k), kept[k]) = 1;
-    for (std::size_t i = 0; i < varying.hystereses(); ++i)
-      varying.memory(i) = Vector::Unit(starts, memories + static_cast<Eigen::Index>(i));
+    varying.begin(start, starts, memories);
     C = over_mass_C / omega;
     rate = fastest_mode / omega;
     piece = turn / std::max<double>(pieces_at_least, pieces_per_order * harmonics.order);
@@ -273,11 +276,14 @@ struct Floquet::Impl {
     const double fastest = fastest_with(coefficients.largest);
     if (!(fastest * piece <= stiffest)) return false;
     const double in_series = fastest_with(coefficients.sizes);
-    if (!std::isfinite(in_series + coefficients.last)) return false;
+    if (!std::isfinite(in_series + coefficients.last + coefficients.memory + coefficients.last_memory))
+      return false;
     const double most_left_out = h > shortest ? resolved * fastest / h : HUGE_VAL;
-    if (h * in_series <= longest && coefficients.last <= most_left_out &&
+    const double last = coefficients.last + fastest * coefficients.last_memory;
+    if (h * std::max(in_series, coefficients.memory) <= longest && last <= most_left_out &&
         varying.left_out(start + from, h) <= most_left_out) {
       variation.move(h, rate, varying.variables(), W, V);
+      varying.end_piece(start + from + h, W, V);
       return true;
     }
     const int shares = std::max(2, static_cast<int>(std::ceil(h * fastest / longest)));
@@ -293,7 +299,7 @@ struct Floquet::Impl {
 
   void pass(const Change& at, const elements::Harmonics& harmonics,
             const std::vector<ElementCourse>& elements) {
-    if (at.reversal) return varying.pass(at.of, at.index, W);
+    if (at.varying) return varying.pass(varying.changes()[at.of], W);
     Part& part = parts[at.of];
     const ModeChange& change = part.course.changes[at.index];
     const elements::Mode& left = part.mode();
@@ -336,8 +342,7 @@ struct Floquet::Impl {
       map.middleRows(n, n) = V.transpose();
       for (std::size_t k = 0; k < kept.size(); ++k)
         map.row(2 * n + static_cast<Eigen::Index>(k)) = Z.col(kept[k]);
-      for (std::size_t i = 0; i < varying.hystereses(); ++i)
-        map.row(memories + static_cast<Eigen::Index>(i)) = varying.memory(i);
+      varying.end(start, map, memories);
     }
     if (half) map = -map;
     if (!map.allFinite() || !set_eigenvalues()) return false;
@@ -388,14 +393,19 @@ struct Floquet::Impl {
   std::vector<std::complex<double>> multipliers, half_multipliers;
 };
 
-Floquet::Floquet(const EquationOfMotion& equation, const ModesKept& kept)
-    : impl_(std::make_unique<Impl>(equation, kept, nullptr)) {}
+Floquet::Floquet(const EquationOfMotion& equation, const ModesKept& kept,
+                 std::shared_ptr<const NaturalModes> modes)
+    : impl_(std::make_unique<Impl>(equation, kept, std::move(modes), nullptr)) {}
 Floquet::~Floquet() = default;
 Floquet::Floquet(Floquet&&) noexcept = default;
 Floquet& Floquet::operator=(Floquet&&) noexcept = default;
 
 void Floquet::move_to(const EquationOfMotion& equation) {
-  impl_ = std::make_unique<Impl>(equation, impl_->with_inertia, impl_.get());
+  impl_ = std::make_unique<Impl>(equation, impl_->with_inertia, nullptr, impl_.get());
+}
+
+bool Floquet::has_matrices_of(const EquationOfMotion& equation) const {
+  return impl_->has_matrices_of(equation);
 }
 
 bool Floquet::compute(double omega, const elements::Harmonics& harmonics,

@@ -28,7 +28,7 @@
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/time/automaton_course.hpp>
 #include <arcslip/time/equation_of_motion.hpp>
-#include <arcslip/time/modes_kept.hpp>
+#include <arcslip/time/natural_modes.hpp>
 
 #include <complex>
 #include <functional>
@@ -55,8 +55,10 @@ struct ElementCourse {
 class Floquet {
  public:
   /// Throws NoVariation, SingularMass (event_driven.hpp). The frequency, the forces and the harmonics of the
-  /// equation do not matter. kept: only where all laws are piecewise linear and K and C symmetric.
-  explicit Floquet(const EquationOfMotion& equation, const ModesKept& kept = {});
+  /// equation do not matter. kept: only where all laws are piecewise linear and K and C symmetric. modes: of
+  /// the equation; null: computed, where all laws are piecewise linear.
+  explicit Floquet(const EquationOfMotion& equation, const ModesKept& kept = {},
+                   std::shared_ptr<const NaturalModes> modes = nullptr);
   ~Floquet();
   Floquet(Floquet&&) noexcept;
   Floquet& operator=(Floquet&&) noexcept;
@@ -65,6 +67,9 @@ class Floquet {
   /// and is then as before. What was found of the structure in sets of modes is kept where its matrices and
   /// the stiffnesses of its elements are the same, as where only forces or normal loads are others.
   void move_to(const EquationOfMotion& equation);
+
+  /// Whether an equation has the same M, C and K.
+  bool has_matrices_of(const EquationOfMotion& equation) const;
 
   /// omega: base frequency, rad/s; elements: as in the equation. False: there are none, as where the motion
   /// is not finite or a contact chatters, or go_on returned false.

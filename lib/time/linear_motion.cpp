@@ -20,8 +20,7 @@ void require_mass(const EquationOfMotion& equation) {
     const std::string name = i < static_cast<Eigen::Index>(names.size())
                                  ? "\"" + names[static_cast<std::size_t>(i)] + "\""
                                  : "number " + std::to_string(i + 1);
-    throw SingularMass("degree of freedom " + name +
-                       " has no mass of its own (M is singular), which event-driven integration requires");
+    throw SingularMass("degree of freedom " + name + " has no mass of its own (M is singular)");
   };
   const Vector diagonal = equation.M.diagonal();
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)

@@ -6,12 +6,11 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <utility>
 
 namespace arcslip::time {
 namespace {
 
-constexpr double massless = 1e-13;        // of the largest mass over stiffness
-constexpr double damped = 1e-12;          // of a motion without mass, relative to the largest damper
 constexpr double symmetric = 1e-14;       // skew part of a stiffness, relative
 constexpr double diagonal = 1e-14;        // couplings of modes by damping, relative
 constexpr double most_parallel = 1e5;     // condition of the planes' basis
@@ -21,67 +20,11 @@ constexpr double slow = 1e-3;             // of the fastest: a motion without a 
 constexpr Eigen::Index least_modes = 10;  // with inertia
 constexpr std::size_t most_numbers = std::size_t{1} << 23;  // in phases kept
 
-std::string name_of(const EquationOfMotion& equation, Eigen::Index dof) {
-  const auto i = static_cast<std::size_t>(dof);
-  return i < equation.dof_names.size() ? "\"" + equation.dof_names[i] + "\""
-                                       : "number " + std::to_string(i + 1);
-}
-
-// Modes of the structure without contacts, V^T M V = 1, and of the motions without mass, V_s^T K V_s = 1.
-struct Free {
-  Vector squares;
-  Matrix V, without_mass;
-};
-
-Free free_modes(const EquationOfMotion& equation) {
-  const Matrix &M = equation.M, K = 0.5 * (equation.K + equation.K.transpose());
-  const auto fail = [&](const Vector& motion, const std::string& reason) {
-    Eigen::Index dof = 0;
-    motion.cwiseAbs().maxCoeff(&dof);
-    throw SingularMass("degree of freedom " + name_of(equation, dof) + " has no mass of its own" + reason);
-  };
-  const double shift =
-      K.cwiseAbs().maxCoeff() / std::max(M.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
-  Free found;
-  const auto by_mass = continuation::symmetric_modes(M, K + shift * M);
-  Eigen::Index none = 0;
-  if (by_mass.values.size() == M.rows())
-    while (none < M.rows() && by_mass.values[none] * shift <= massless) ++none;
-  if (by_mass.values.size() == M.rows() && none > 0) {
-    found.without_mass = by_mass.V.leftCols(none);
-    const auto acts = [](const Matrix& A, const auto& motion) {
-      const double largest =
-          std::max((A * motion).cwiseAbs().maxCoeff(), (A.transpose() * motion).cwiseAbs().maxCoeff());
-      return largest > damped * A.cwiseAbs().maxCoeff() * motion.norm();
-    };
-    const Matrix circulatory = equation.circulatory();
-    for (const auto& motion : found.without_mass.colwise()) {
-      if (acts(equation.C, motion)) fail(motion, ", and a damper acts on it");
-      if (circulatory.size() > 0 && acts(circulatory, motion))
-        fail(motion, ", and an unsymmetric stiffness acts on it");
-    }
-    const Matrix rest = by_mass.V.rightCols(M.rows() - none);
-    auto modes = continuation::symmetric_modes(rest.transpose() * K * rest, rest.transpose() * M * rest);
-    found.squares = std::move(modes.values);
-    found.V = rest * modes.V;
-    return found;
-  }
-  auto modes = continuation::symmetric_modes(K, M);
-  if (modes.values.size() != M.rows() || !modes.V.allFinite()) {
-    Eigen::Index least = 0;
-    M.diagonal().minCoeff(&least);
-    fail(Vector::Unit(M.rows(), least), ", and no spring of the structure holds it");
-  }
-  found.squares = std::move(modes.values);
-  found.V = std::move(modes.V);
-  return found;
-}
-
 }  // namespace
 
 LinearPhases::LinearPhases(const EquationOfMotion& equation, std::vector<PhasePart> parts,
-                           const ModesKept& kept)
-    : parts_(std::move(parts)), memories_(equation.memory) {
+                           const ModesKept& kept, std::shared_ptr<const NaturalModes> modes)
+    : parts_(std::move(parts)), memories_(equation.memory), free_(std::move(modes)) {
   for (const PhasePart& part : parts_) {
     first_row_.push_back(static_cast<int>(rows_));
     rows_ += part.directions.cols();
@@ -96,7 +39,8 @@ LinearPhases::LinearPhases(const EquationOfMotion& equation, std::vector<PhasePa
   for (std::size_t i = 0; i < parts_.size(); ++i)
     D.middleCols(first_row_[i], parts_[i].directions.cols()) = parts_[i].directions;
 
-  const Free free = free_modes(equation);
+  if (!free_) free_ = time::natural_modes(equation);
+  const NaturalModes& free = *free_;
   natural_ = free.squares.cwiseMax(0).cwiseSqrt();
   Eigen::Index n = 0;
   const Matrix circulatory = equation.circulatory();
@@ -373,7 +317,7 @@ bool LinearPhases::move(double time) {
     velocity_ = X_.rightCols(n);
     if (!driven) driven_.resize(0, 0);
     variation_.set(now_->K, damping_, driven_);
-    variation_.move(time, now_->fastest, {}, position_, velocity_);
+    variation_.move(time, now_->fastest, position_, velocity_);
     X_.leftCols(n) = position_;
     X_.rightCols(n) = velocity_;
     return true;

@@ -29,10 +29,11 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/time/equation_of_motion.hpp>
-#include <arcslip/time/modes_kept.hpp>
+#include <arcslip/time/natural_modes.hpp>
 #include <arcslip/time/variation.hpp>
 
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -49,8 +50,11 @@ struct PhasePart {
 
 class LinearPhases {
  public:
-  /// Throws SingularMass where a motion without mass has a damper, or no spring of its own.
-  LinearPhases(const EquationOfMotion& equation, std::vector<PhasePart> parts, const ModesKept& kept);
+  /// modes: of the equation; null: computed, which throws SingularMass.
+  LinearPhases(const EquationOfMotion& equation, std::vector<PhasePart> parts, const ModesKept& kept,
+               std::shared_ptr<const NaturalModes> modes = nullptr);
+
+  std::shared_ptr<const NaturalModes> natural_modes() const { return free_; }
 
   const std::vector<PhasePart>& parts() const { return parts_; }
   /// The modes kept, n.
@@ -107,6 +111,7 @@ class LinearPhases {
   std::vector<int> first_row_;          // of the parts' directions
   std::vector<std::vector<int>> kind_;  // of each mode: the first with the same stiffness
   Eigen::Index rows_ = 0, memories_ = 0;
+  std::shared_ptr<const NaturalModes> free_;
   Vector squares_, natural_;             // of the modes kept; natural frequencies of all, rising
   Matrix damping_, contact_, residual_;  // of the modes kept; Phi; R, empty: 0
   Matrix circulatory_;                   // V^T N V of the skew part N of K; empty: none

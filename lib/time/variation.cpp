@@ -54,7 +54,7 @@ void Variation::set(const Matrix& K, const Matrix& C, const Matrix& G) {
   G_ = G;
 }
 
-void Variation::move(double h, double fastest, const std::vector<Variable>& variables, Matrix& W, Matrix& V) {
+void Variation::move(double h, double fastest, std::vector<Variable>& variables, Matrix& W, Matrix& V) {
   if (!(h > 0)) return;
   if (!variables.empty()) return series(h, terms_of(h, fastest, variables), G_, variables, W, V);
   const double pieces = std::max(1.0, std::ceil(h * fastest / longest));
@@ -64,21 +64,24 @@ void Variation::move(double h, double fastest, const std::vector<Variable>& vari
 }
 
 // Until the terms of a bound are negligible, w'' = fastest^2 w + sum_j |T_j| s^j w + ...: as many in a row as
-// one depends on.
+// one depends on. y: with the size of D^T.
 std::size_t Variation::terms_of(double h, double fastest, const std::vector<Variable>& variables) {
-  by_w_.clear();
-  by_v_.clear();
-  const auto add = [](const Matrix& coefficients, const Variable& of, std::vector<double>& to) {
-    const auto powers = static_cast<std::size_t>(coefficients.cols() / of.directions);
+  for (auto* each : {&by_w_, &by_v_, &by_y_, &y_by_y_, &y_by_w_}) each->clear();
+  const auto add = [](const Matrix& coefficients, Eigen::Index columns, double size,
+                      std::vector<double>& to) {
+    const auto powers = columns > 0 ? static_cast<std::size_t>(coefficients.cols() / columns) : 0;
     to.resize(std::max(to.size(), powers), 0);
     for (std::size_t j = 0; j < powers; ++j)
-      to[j] += of.size * coefficients.middleCols(static_cast<Eigen::Index>(j) * of.directions, of.directions)
-                             .cwiseAbs()
-                             .sum();
+      to[j] +=
+          size * coefficients.middleCols(static_cast<Eigen::Index>(j) * columns, columns).cwiseAbs().sum();
   };
   for (const Variable& variable : variables) {
-    add(variable.T, variable, by_w_);
-    add(variable.B, variable, by_v_);
+    add(variable.T, variable.directions, variable.size, by_w_);
+    add(variable.B, variable.directions, variable.size, by_v_);
+    if (variable.decay.size() == 0) continue;
+    add(variable.by_memory, variable.memory.cols(), variable.size, by_y_);
+    add(variable.decay, variable.memory.cols(), 1, y_by_y_);
+    add(variable.rate_by_q, variable.directions, 1, y_by_w_);
   }
   double square = fastest * fastest;
   for (const double each : by_w_) square += each;
@@ -86,15 +89,24 @@ std::size_t Variation::terms_of(double h, double fastest, const std::vector<Vari
   if (rate == 0) return 2;
   size_w_.assign(1, 1);  // of rate w
   size_v_.assign(1, 1);
+  size_y_.assign(1, by_y_.empty() ? 0 : 1);  // of rate y
+  // Of the next term.
+  const auto sum = [](const std::vector<double>& by, const std::vector<double>& terms) {
+    double all = 0;
+    for (std::size_t j = 0; j < std::min(terms.size(), by.size()); ++j)
+      all += by[j] * terms[terms.size() - 1 - j];
+    return all;
+  };
   std::size_t small = 0;
   for (std::size_t k = 0; small <= by_w_.size() && k + 1 < most_terms; ++k) {
     const double factor = h / static_cast<double>(k + 1);
-    double v = fastest * fastest / rate * size_w_[k];
-    for (std::size_t j = 0; j <= k && j < by_w_.size(); ++j) v += by_w_[j] / rate * size_w_[k - j];
-    for (std::size_t j = 0; j <= k && j < by_v_.size(); ++j) v += by_v_[j] * size_v_[k - j];
+    const double v = fastest * fastest / rate * size_w_[k] + sum(by_w_, size_w_) / rate +
+                     sum(by_v_, size_v_) + sum(by_y_, size_y_) / rate;
+    const double y = sum(y_by_y_, size_y_) + sum(y_by_w_, size_w_);
     size_w_.push_back(factor * rate * size_v_[k]);
     size_v_.push_back(factor * v);
-    small = std::max(size_w_.back(), size_v_.back()) > left_out ? 0 : small + 1;
+    size_y_.push_back(factor * y);
+    small = std::max({size_w_.back(), size_v_.back(), size_y_.back()}) > left_out ? 0 : small + 1;
   }
   return std::max<std::size_t>(size_w_.size() - small, 2);
 }
@@ -136,28 +148,34 @@ struct Vectors {
     }
   }
 
-  // sum += row a of sum_j T_j (term k - j).
-  [[gnu::always_inline]] static void convolve(const Matrix& T, Eigen::Index a, Eigen::Index k, double* terms,
-                                              Lanes& sum) {
-    const Eigen::Index directions = T.rows(), powers = std::min(T.cols() / directions, k + 1);
-    for (Eigen::Index b = 0; b < directions; ++b) {
-      const double* by = T.data() + b * directions + a;
-      for (Eigen::Index j = 0; j < powers; ++j, by += directions * directions)
-        sum += *by * at(terms, (k - j) * directions + b);
+  // M^-1 D of a number for each direction.
+  [[gnu::always_inline]] static void subtract(const Variable& variable, double* of, double* from) {
+    for (const Variable::Entry& onto : variable.onto)
+      at(from, onto.dof) -= onto.weight * at(of, onto.direction);
+  }
+
+  // sum += row a of sum_j T_j (term k - j), with so many columns in T_j.
+  [[gnu::always_inline]] static void convolve(const Matrix& T, Eigen::Index columns, Eigen::Index a,
+                                              Eigen::Index k, double* terms, Lanes& sum) {
+    const Eigen::Index rows = T.rows(), powers = std::min(T.cols() / columns, k + 1);
+    for (Eigen::Index b = 0; b < columns; ++b) {
+      const double* by = T.data() + b * rows + a;
+      for (Eigen::Index j = 0; j < powers; ++j, by += rows * columns)
+        sum += *by * at(terms, (k - j) * columns + b);
     }
   }
 };
 
 }  // namespace
 
-void Variation::series(double h, std::size_t terms, const Matrix& G, const std::vector<Variable>& variables,
+void Variation::series(double h, std::size_t terms, const Matrix& G, std::vector<Variable>& variables,
                        Matrix& W, Matrix& V) {
   for (Eigen::Index start = 0; start < W.rows(); start += lanes)
     series_from(start, h, terms, G, variables, W, V);
 }
 
 void Variation::series_from(Eigen::Index start, double h, std::size_t terms, const Matrix& G,
-                            const std::vector<Variable>& variables, Matrix& W, Matrix& V) {
+                            std::vector<Variable>& variables, Matrix& W, Matrix& V) {
   using Of = Vectors;
   Of::take(W, start, at_.w);
   Of::take(V, start, at_.v);
@@ -172,12 +190,19 @@ void Variation::series_from(Eigen::Index start, double h, std::size_t terms, con
     Buffers::Along& along = at_.along[i];
     along.w.resize(terms * size);
     if (variables[i].B.size() > 0) along.v.resize(terms * size);
+    if (variables[i].E.size() > 0) along.a.resize(terms * size);
     along.sum.resize(size);
-    if (variables[i].by_memory.size() > 0) Of::take(variables[i].memory, start, along.memory);
+    if (variables[i].by_memory.size() == 0) continue;
+    Of::take(variables[i].memory, start, along.memory);
+    if (variables[i].decay.size() == 0) continue;
+    along.memory_sum = along.memory;
+    along.memory.resize((terms + 1) * along.memory.size());
   }
   continuation::widest([&]() __attribute__((always_inline)) { add_terms(terms, h, variables); });
   Of::give(at_.sum_w, start, W);
   Of::give(at_.sum_v, start, V);
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    if (variables[i].decay.size() > 0) Of::give(at_.along[i].memory_sum, start, variables[i].memory);
 }
 
 // next_v: G.
@@ -201,17 +226,41 @@ void Variation::series_from(Eigen::Index start, double h, std::size_t terms, con
       const Variable& variable = variables[n];
       Buffers::Along& along = at_.along[n];
       Of::project(variable, now, w, along.w.data());
-      const bool moving = variable.B.size() > 0, driven = now < variable.by_memory.cols();
+      const Eigen::Index directions = variable.directions, numbers = variable.memory.cols();
+      const bool moving = variable.B.size() > 0, changing = variable.decay.size() > 0;
+      const bool driven = !changing && now * numbers < variable.by_memory.cols();
       if (moving) Of::project(variable, now, v, along.v.data());
-      for (Eigen::Index a = 0; a < variable.directions; ++a) {
+      for (Eigen::Index a = 0; a < directions; ++a) {
         Lanes sum{};
-        Of::convolve(variable.T, a, now, along.w.data(), sum);
-        if (moving) Of::convolve(variable.B, a, now, along.v.data(), sum);
-        if (driven) sum += variable.by_memory(a, now) * Of::at(along.memory.data(), 0);
+        Of::convolve(variable.T, directions, a, now, along.w.data(), sum);
+        if (moving) Of::convolve(variable.B, directions, a, now, along.v.data(), sum);
+        if (changing) Of::convolve(variable.by_memory, numbers, a, now, along.memory.data(), sum);
+        for (Eigen::Index b = 0; driven && b < numbers; ++b)
+          sum += variable.by_memory(a, now * numbers + b) * Of::at(along.memory.data(), b);
         Of::at(along.sum.data(), a) = sum;
       }
-      for (const Variable::Entry& onto : variable.onto)
-        Of::at(next_v, onto.dof) -= onto.weight * Of::at(along.sum.data(), onto.direction);
+      for (Eigen::Index b = 0; changing && b < numbers; ++b) {
+        Lanes sum{};
+        Of::convolve(variable.decay, numbers, b, now, along.memory.data(), sum);
+        Of::convolve(variable.rate_by_q, directions, b, now, along.w.data(), sum);
+        sum *= h / static_cast<double>(k + 1);
+        Of::at(along.memory.data(), (now + 1) * numbers + b) = sum;
+        Of::at(along.memory_sum.data(), b) += sum;
+      }
+      Of::subtract(variable, along.sum.data(), next_v);
+    }
+    for (std::size_t n = 0; n < variables.size(); ++n) {
+      const Variable& variable = variables[n];
+      if (variable.E.size() == 0) continue;
+      Buffers::Along& along = at_.along[n];
+      Of::project(variable, now, next_v, along.a.data());
+      for (Eigen::Index a = 0; a < variable.directions; ++a) {
+        Lanes sum{};
+        Of::convolve(variable.E, variable.directions, a, now, along.a.data(), sum);
+        Of::at(along.sum.data(), a) = sum;
+      }
+      Of::subtract(variable, along.sum.data(), next_v);
+      Of::project(variable, now, next_v, along.a.data());
     }
     const double factor = h / static_cast<double>(k + 1);
     for (Eigen::Index i = 0; i < dofs; ++i) {
@@ -235,7 +284,7 @@ void Variation::squared(double h, double fastest, int halvings, Matrix& W, Matri
   map_v_.middleRows(n, n).setIdentity();
   input_.setZero(inputs > 0 ? size : 0, inputs);
   input_.bottomRows(inputs).setIdentity();
-  series(std::ldexp(h, -halvings), time::terms_of(std::ldexp(h, -halvings) * fastest), input_, {}, map_w_,
+  series(std::ldexp(h, -halvings), time::terms_of(std::ldexp(h, -halvings) * fastest), input_, none_, map_w_,
          map_v_);
   map_.setZero(size, size);
   map_.leftCols(n) = map_w_;

@@ -4,7 +4,9 @@
 
 #include <Eigen/LU>
 
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace arcslip::time {
 namespace {
@@ -12,8 +14,14 @@ namespace {
 constexpr double beside_end = 1.0 / 1024;  // of a piece
 constexpr double negligible = 1e-13;       // coefficient, by the largest one
 
+constexpr double turn = 2 * std::numbers::pi;
+
 const elements::Hysteresis* hysteresis_of(const elements::Law& law) {
   return dynamic_cast<const elements::Hysteresis*>(&law);
+}
+
+const elements::PlaneFriction* plane_friction_of(const elements::Law& law) {
+  return dynamic_cast<const elements::PlaneFriction*>(&law);
 }
 
 }  // namespace
@@ -22,7 +30,7 @@ VaryingCoefficients::VaryingCoefficients()
     : fit_(nodes), by_values_(fit_.by_values), powers_(fit_.powers.transpose()) {}
 
 bool VaryingCoefficients::takes(const elements::Law& law) {
-  return law.memory() == 0 || hysteresis_of(law);
+  return law.memory() == 0 || hysteresis_of(law) || plane_friction_of(law);
 }
 
 void VaryingCoefficients::add(const TimeElement& element, int index, Matrix over_mass) {
@@ -39,6 +47,10 @@ void VaryingCoefficients::add(const TimeElement& element, int index, Matrix over
         {&element, index, variable, at.f_q(0, 0), at.f_z(0, 0), HysteresisCourse(*law, element.fields)});
     return;
   }
+  if (const auto* law = plane_friction_of(*element.law)) {
+    planar_.push_back({index, variable, DiscCourse(law->contact(element.fields))});
+    return;
+  }
   smooth_.push_back({&element,
                      index,
                      variable,
@@ -48,21 +60,69 @@ void VaryingCoefficients::add(const TimeElement& element, int index, Matrix over
                      variables_.back().B});
 }
 
-bool VaryingCoefficients::follow(double omega, const elements::Harmonics& harmonics,
+bool VaryingCoefficients::follow(double omega, double fastest, const elements::Harmonics& harmonics,
                                  const std::vector<ElementCourse>& elements) {
   omega_ = omega;
   harmonics_ = harmonics;
   elements_ = &elements;
-  for (Hysteretic& law : hystereses_)
+  changes_.clear();
+  breaks_.clear();
+  for (Hysteretic& law : hystereses_) {
     if (!law.course.follow(harmonics, elements[static_cast<std::size_t>(law.index)].q.col(0))) return false;
+    const auto& turns = law.course.turns();
+    for (std::size_t k = 0; k < turns.size(); ++k)
+      for (double theta = turns[k].theta; theta < turn; theta += harmonics.span())
+        changes_.push_back({theta, law.variable, k});
+    breaks_.insert(breaks_.end(), law.course.breaks().begin(), law.course.breaks().end());
+  }
+  for (Planar& law : planar_) {
+    const Matrix& q = elements[static_cast<std::size_t>(law.index)].q;
+    if (!law.course.follow(harmonics, q, fastest / omega)) return false;
+    for (std::size_t k = 0; k < law.course.changes().size(); ++k)
+      changes_.push_back({law.course.changes()[k], law.variable, k});
+    breaks_.insert(breaks_.end(), law.course.breaks().begin(), law.course.breaks().end());
+  }
   return true;
 }
 
-void VaryingCoefficients::pass(std::size_t hysteresis, std::size_t turn, const Matrix& W) {
-  const auto& at = hystereses_[hysteresis].course.turns()[turn];
-  Vector& y = memory(hysteresis);
-  y *= at.phi;
-  y.noalias() += (at.before - at.after) * (W * directions_[hystereses_[hysteresis].variable]);
+void VaryingCoefficients::pass(const Change& change, const Matrix& W) {
+  Matrix& memory = variables_[change.variable].memory;
+  const Matrix dq = W * directions_[change.variable];
+  for (const Hysteretic& law : hystereses_)
+    if (law.variable == change.variable) {
+      const auto& at = law.course.turns()[change.index];
+      memory = at.phi * memory + (at.before - at.after) * dq;
+    }
+  for (const Planar& law : planar_)
+    if (law.variable == change.variable) law.course.pass(change.index, dq, memory);
+}
+
+int VaryingCoefficients::free_at(double theta) const {
+  int count = static_cast<int>(hystereses_.size());
+  for (const Planar& law : planar_) count += law.course.free_at(theta);
+  return count;
+}
+
+int VaryingCoefficients::following_at(double theta) const {
+  int count = 0;
+  for (const Planar& law : planar_) count += law.course.following_at(theta);
+  return count;
+}
+
+void VaryingCoefficients::begin(double theta, Eigen::Index starts, Eigen::Index first) {
+  for (const Hysteretic& law : hystereses_) variables_[law.variable].memory = Vector::Unit(starts, first++);
+  for (const Planar& law : planar_) {
+    Matrix& memory = variables_[law.variable].memory;
+    memory.setZero(starts, 2);
+    for (int i = 0; i < law.course.free_at(theta); ++i) memory(first++, i) = 1;
+  }
+}
+
+void VaryingCoefficients::end(double theta, Matrix& map, Eigen::Index first) const {
+  for (const Hysteretic& law : hystereses_) map.row(first++) = variables_[law.variable].memory.transpose();
+  for (const Planar& law : planar_)
+    for (int i = 0; i < law.course.free_at(theta); ++i)
+      map.row(first++) = variables_[law.variable].memory.col(i);
 }
 
 VaryingCoefficients::Piece VaryingCoefficients::interpolate(double theta, double h) {
@@ -71,9 +131,10 @@ VaryingCoefficients::Piece VaryingCoefficients::interpolate(double theta, double
     cos_[i] = std::cos(angle);
     sin_[i] = std::sin(angle);
   }
-  Piece piece{{}, {}, 0};
+  Piece piece;
   for (Smooth& law : smooth_) set(law, piece);
   for (Hysteretic& law : hystereses_) set(law, theta, h, piece);
+  for (Planar& law : planar_) set(law, theta, h, piece);
   return piece;
 }
 
@@ -142,6 +203,66 @@ void VaryingCoefficients::set(Hysteretic& law, double theta, double h, Piece& pi
   variable.by_memory = coefficients(by_memory, last).transpose();
   piece.sizes.stiffness += variable.size * variable.T.cwiseAbs().sum();
   piece.last += variable.size * last;
+}
+
+void VaryingCoefficients::set(Planar& law, double theta, double h, Piece& piece) {
+  const double scale = 1 / (omega_ * omega_);
+  Variable& variable = variables_[law.variable];
+  std::array<DiscCourse::Values, nodes> at;
+  law.relaxed = true;
+  for (int i = 0; i < nodes; ++i) {
+    DiscCourse::Values& values = at[static_cast<std::size_t>(i)];
+    law.course.at(theta + h * fit_.nodes[i], values);
+    law.relaxed = law.relaxed && values.relaxes;
+  }
+  // Matrices side by side by the powers, from a matrix at each node.
+  const auto set = [&](auto of, double factor, double& last, Matrix& to) {
+    const auto rows = (at[0].*of).rows(), columns = (at[0].*of).cols();
+    to.resize(rows, columns * nodes);
+    for (Eigen::Index k = 0; k < rows * columns; ++k) {
+      Values at_nodes;
+      for (int i = 0; i < nodes; ++i) at_nodes[i] = factor * (at[static_cast<std::size_t>(i)].*of).data()[k];
+      const Values by_powers = coefficients(at_nodes, last);
+      for (int j = 0; j < nodes; ++j) to.data()[j * rows * columns + k] = by_powers[j];
+    }
+  };
+  using Of = DiscCourse::Values;
+  double last = 0, last_v = 0, last_a = 0, largest = 0;
+  if (law.relaxed) {
+    set(&Of::relaxed_by_q, scale, last, variable.T);
+    set(&Of::by_v, scale, last_v, variable.B);
+    set(&Of::by_a, scale, last_a, variable.E);
+    for (Matrix* none : {&variable.by_memory, &variable.decay, &variable.rate_by_q}) none->resize(0, 0);
+    for (const auto& values : at) {
+      largest = std::max(largest, values.relaxed_by_q.cwiseAbs().sum());
+      piece.largest.damping =
+          std::max(piece.largest.damping, scale * variable.size * values.by_v.cwiseAbs().sum());
+    }
+    piece.sizes.damping += variable.size * (variable.B.cwiseAbs().sum() + variable.E.cwiseAbs().sum());
+    piece.last_memory = std::max(piece.last_memory, variable.size * (last_v + last_a));
+  } else {
+    set(&Of::by_q, scale, last, variable.T);
+    set(&Of::by_memory, scale, last, variable.by_memory);
+    for (Matrix* none : {&variable.B, &variable.E}) none->resize(0, 0);
+    double last_memory = 0;
+    set(&Of::rate_by_memory, 1, last_memory, variable.decay);
+    set(&Of::rate_by_q, 1, last_memory, variable.rate_by_q);
+    for (const auto& values : at) {
+      largest = std::max(largest, values.by_q.cwiseAbs().sum());
+      piece.memory = std::max(piece.memory, -values.rate_by_memory(0, 0));
+    }
+    piece.last_memory = std::max(piece.last_memory, last_memory);
+  }
+  piece.largest.stiffness += scale * variable.size * largest;
+  piece.sizes.stiffness += variable.size * variable.T.cwiseAbs().sum();
+  piece.last += variable.size * last;
+}
+
+void VaryingCoefficients::end_piece(double theta, const Matrix& W, const Matrix& V) {
+  for (const Planar& law : planar_)
+    if (law.relaxed)
+      law.course.relax(theta, W * directions_[law.variable], V * directions_[law.variable],
+                       variables_[law.variable].memory);
 }
 
 double VaryingCoefficients::left_out(double theta, double h) const {

@@ -5,12 +5,14 @@
 //   smooth, without memory   T = df/dq, B = df/dv
 //   hysteretic               T = f_q + f_z r, and f_z phi y of the memory's own disturbance y
 //                            (hysteresis_course.hpp)
+//   friction in a plane      T and f_y, and the equation of y (disc_course.hpp)
 //
 // each replaced on a piece by the polynomial of degree 7 through its values at the eight nodes of Gauss and
 // Legendre. What is left out is orthogonal to polynomials of degree 7: an error of order 16 in the length of
 // a piece, where the coefficient is smooth.
 
 #include <arcslip/elements/hysteresis.hpp>
+#include <arcslip/time/disc_course.hpp>
 #include <arcslip/time/hysteresis_course.hpp>
 #include <arcslip/time/legendre_fit.hpp>
 #include <arcslip/time/variation.hpp>
@@ -30,16 +32,28 @@ class VaryingCoefficients {
   /// index: of the element in ElementCourses; over_mass: M^-1 D. The element must outlive this.
   void add(const TimeElement& element, int index, Matrix over_mass);
 
-  /// Goes to a motion. omega: base frequency, rad/s. False: the motion is not finite.
-  bool follow(double omega, const elements::Harmonics& harmonics, const std::vector<ElementCourse>& elements);
-  /// The courses of the hysteretic laws along it.
-  std::size_t hystereses() const { return hystereses_.size(); }
-  const HysteresisCourse& course(std::size_t hysteresis) const { return hystereses_[hysteresis].course; }
+  /// Goes to a motion. omega: base frequency, rad/s; fastest: mode of the rest, rad/s. False: the motion is
+  /// not finite.
+  bool follow(double omega, double fastest, const elements::Harmonics& harmonics,
+              const std::vector<ElementCourse>& elements);
+  /// Where the disturbance of a memory changes at once, by a reversal or a change of phase.
+  struct Change {
+    double theta;  // rad, in [0, 2 pi)
+    std::size_t variable, index;
+  };
+  /// In any order; and further angles at which coefficients are not smooth, in [0, span).
+  const std::vector<Change>& changes() const { return changes_; }
+  const std::vector<double>& breaks() const { return breaks_; }
+  /// Passes a change with the variations W, starts x dofs.
+  void pass(const Change& change, const Matrix& W);
 
-  /// The disturbance of its memory, y at the last reversal: a number for each start.
-  Vector& memory(std::size_t hysteresis) { return variables_[hystereses_[hysteresis].variable].memory; }
-  /// Passes the reversal of a course with the variations W, starts x dofs.
-  void pass(std::size_t hysteresis, std::size_t turn, const Matrix& W);
+  /// How many numbers of memories are free at an angle, as starts of their own, and how many follow at once.
+  int free_at(double theta) const;
+  int following_at(double theta) const;
+  /// Begins there: the first free number has the start `first`, of so many.
+  void begin(double theta, Eigen::Index starts, Eigen::Index first);
+  /// The free numbers at the same angle, one or several periods later, in the rows of a map from `first` on.
+  void end(double theta, Matrix& map, Eigen::Index first) const;
 
   /// Whether there are laws without memory, which may change fast anywhere.
   bool any_smooth() const { return !smooth_.empty(); }
@@ -49,16 +63,20 @@ class VaryingCoefficients {
     double stiffness = 0, damping = 0;
   };
   struct Piece {
-    Rates largest;  // at the nodes
-    Rates sizes;    // of the coefficients of s^j, all together
-    double last;    // of the last two Legendre polynomials of hysteretic laws, squared rate
+    Rates largest;           // at the nodes
+    Rates sizes;             // of the coefficients of s^j, all together
+    double last = 0;         // of the last two Legendre polynomials of laws with a memory, squared rate
+    double memory = 0;       // the rate of a memory, at the nodes
+    double last_memory = 0;  // of its last two Legendre polynomials
   };
   /// On the piece of length h from an angle theta, rad.
   Piece interpolate(double theta, double h);
   /// What the last interpolate() leaves out of hysteretic laws next to the ends of its piece, where a sharp
   /// yield may lie beyond the nodes: squared rate.
   double left_out(double theta, double h) const;
-  const std::vector<Variable>& variables() const { return variables_; }
+  std::vector<Variable>& variables() { return variables_; }
+  /// After this piece has been passed, W and V at its end.
+  void end_piece(double theta, const Matrix& W, const Matrix& V);
 
  private:
   static constexpr int nodes = 8;
@@ -80,8 +98,16 @@ class VaryingCoefficients {
     HysteresisCourse course;
   };
 
+  struct Planar {
+    int index;
+    std::size_t variable;
+    DiscCourse course;
+    bool relaxed = false;  // on this piece
+  };
+
   void set(Smooth& law, Piece& piece);
   void set(Hysteretic& law, double theta, double h, Piece& piece);
+  void set(Planar& law, double theta, double h, Piece& piece);
   void replace(const Matrix& at_nodes, double scale, Matrix& by_powers);
   Values coefficients(const Values& at_nodes, double& last) const;
 
@@ -92,6 +118,9 @@ class VaryingCoefficients {
   std::vector<Matrix> directions_;  // of variables_
   std::vector<Smooth> smooth_;
   std::vector<Hysteretic> hystereses_;
+  std::vector<Planar> planar_;
+  std::vector<Change> changes_;
+  std::vector<double> breaks_;
   double omega_ = 1;
   elements::Harmonics harmonics_;
   const std::vector<ElementCourse>* elements_ = nullptr;

@@ -117,7 +117,17 @@ TEST_CASE("a slider sticks throughout iff one place is within every disc, and re
     for (int k = 0; k < 16; ++k)
       CHECK(excess(centre.w() + 1e-3 * Vector2d(std::cos(k * pi / 8), std::sin(k * pi / 8))) > here - 1e-6);
     MatrixXd dw(2, 3 * c);
-    centre.derivative(disc, dw);
+    centre.derivative(dw);
+    // Of a motion far smaller than its means, in proportion.
+    const double small = 1e-12;
+    Vector shrunk = small * u;
+    for (const Eigen::Index mean : {Eigen::Index{0}, c, 2 * c}) shrunk[mean] = u[mean];
+    elements::StickCentre beside(h);
+    disc.set(shrunk.head(c), shrunk.segment(c, c), shrunk.tail(c));
+    beside.find(disc);
+    MatrixXd same(2, 3 * c);
+    beside.derivative(same);
+    CHECK((same - dw).cwiseAbs().maxCoeff() < 1e-6);
     if (seed % 4 == 0) continue;
     const auto rest = [&](const Vector& at) {
       disc.set(at.head(c), at.segment(c, c), at.tail(c));

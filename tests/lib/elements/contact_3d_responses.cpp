@@ -56,6 +56,26 @@ TEST_CASE("a frequency response with slip in a plane and separation is traced to
   CHECK(stuck > 0);
 }
 
+TEST_CASE("a contact in a plane that sticks responds in proportion, also at forces far below its load") {
+  const auto peak = [](double factor) {
+    scene::Scene s = scenes::example("orbiting_pad");
+    for (const char* force : {"unbalance_x.cosine", "unbalance_y.sine", "lift.cosine"})
+      scene::set(s, force, factor * scene::value(s, force));
+    const auto branches = observables::frequency_response(s, {35, 60});
+    REQUIRE(branches.size() == 1);
+    CHECK(branches[0].status == observables::Status::complete);
+    double largest = 0;
+    for (const auto& event : branches[0].events) largest = std::max(largest, event.point.amplitude);
+    return largest / factor;
+  };
+  const double one = peak(1e-3);
+  REQUIRE(one > 0);
+  for (const double factor : {1e-4, 1e-5, 1e-6, 1e-8, 1e-12}) {
+    CAPTURE(factor);
+    CHECK(std::abs(peak(factor) / one - 1) < 1e-9);
+  }
+}
+
 namespace {
 
 // The example of an orbiting pad without lift: in full stick two oscillators, of 0.5 kg, 2 N s/m and 40 and

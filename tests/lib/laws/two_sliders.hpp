@@ -49,7 +49,7 @@ constexpr scene::Field positive_field(std::string_view name) {
           .help = "of one slider"};
 }
 
-class TwoSliders final : public elements::PlainLaw {
+class TwoSliders : public elements::PlainLaw {
  public:
   std::string_view name() const override { return "two_sliders"; }
   std::string_view help() const override { return "two sliders side by side"; }

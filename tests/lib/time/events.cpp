@@ -354,8 +354,7 @@ TEST_CASE("a degree of freedom without mass is named, and a cubic spring refused
   equation.dof_names = {"hub", "tip"};
   equation.M(1, 1) = 0;
   CHECK_THROWS_WITH(EventDriven(equation),
-                    "degree of freedom \"tip\" has no mass of its own (M is singular), which "
-                    "event-driven integration requires");
+                    "degree of freedom \"tip\" has no mass of its own (M is singular)");
   equation.M << 1, 1, 1, 1;  // one mass on x_hub + x_tip
   CHECK_THROWS_AS(EventDriven(equation), SingularMass);
   equation = two_masses();

@@ -4,13 +4,13 @@
 
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
+#include "lib/laws/two_sliders.hpp"
 #include "lib/time/beside_exact.hpp"
 #include "lib/time/cosine.hpp"
 #include "lib/time/multiplier_distance.hpp"
 #include "lib/time/random_contacts.hpp"
 #include "lib/time/systems.hpp"
 
-#include <arcslip/elements/contact_3d.hpp>
 #include <arcslip/elements/polynomial_spring.hpp>
 #include <arcslip/elements/van_der_pol.hpp>
 #include <arcslip/time/floquet.hpp>
@@ -289,10 +289,13 @@ TEST_CASE("modes found by the guards give the multipliers of those that the elem
   }
 }
 
-TEST_CASE("a memory that is not piecewise linear is named, and so is a missing mass") {
-  auto equation = systems::masses(Vector::Ones(3));
-  equation.add("pad", elements::contact_3d().law({}), {1.0, 1.0, 0.5, 1.0}, Matrix::Identity(3, 3));
-  CHECK_THROWS_WITH(Floquet(equation), "the memory of \"pad\" is not piecewise linear");
+TEST_CASE("a memory of an unknown kind is named, and so is a missing mass") {
+  const struct : own_laws::TwoSliders {
+    std::optional<std::vector<elements::Automaton>> automata(elements::Fields) const override { return {}; }
+  } secret;
+  auto equation = systems::masses(Vector::Ones(1));
+  equation.add("pad", secret.law({}), {1.0, 0.5, 1.0, 1.0, 0.5, 2.0}, Matrix::Identity(1, 1));
+  CHECK_THROWS_WITH(Floquet(equation), "the memory of \"pad\" is of an unknown kind");
   auto massless = systems::oscillator(0, 0.1, 1);
   massless.dof_names = {"tip"};
   CHECK_THROWS_AS(Floquet(massless), SingularMass);
