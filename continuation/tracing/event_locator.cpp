@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -188,7 +187,6 @@ constexpr int samples_beside = 4;           // of q on each side of an extremum,
 constexpr double sample_share = 1e-2;       // of the step, between them
 constexpr double spreads = 2;               // of the samples: more is not rounding
 constexpr double spreads_at_kink = 8;       // of two samples
-constexpr double other_trials[] = {0.5, 0.25, 0.1, 0.75, 0.9, 0.97, 0.99};  // shares of a section
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
 // The value of a monitor at the share s of a section, corrected onto the branch from the cubic between its
@@ -205,35 +203,44 @@ class OnSection {
         chord_(to.v - from.v),
         row_(probe.border_row(chord_ / length_)),
         least_along_(length_ * std::cos(std::min(2 * largest_angle, steepest))),
-        place_(to) {}
+        place_(to),
+        positive_{0, from.v, from.piece},
+        negative_{positive_} {}
 
   double operator()(double s) {
     hermite(from_.v, from_.tangent, to_.v, to_.tangent, length_, s, guess_);
     if (!go_to_branch(factors_) && !go_to_branch(false)) {
-      // Next to a kink the cubic may lie beyond it, where it leads elsewhere: between places that are known.
-      guess_between(s);
+      // Next to a kink the cubic may lie beyond it, where it leads elsewhere: between the ends of the
+      // bracket.
+      if (positive_.s == negative_.s) return fail();
+      const double share = (s - negative_.s) / (positive_.s - negative_.s);
+      guess_ = negative_.v + share * (positive_.v - negative_.v);
       if (!go_to_branch(false)) return fail();
     }
     factors_ = true;
     const bool smooth = to_.piece == from_.piece && place_.piece == from_.piece;
     if (smooth && probe_.dot(place_.tangent, chord_) < least_along_) return fail();  // on another branch
     place_.arclength = from_.arclength + distance(probe_, from_.v, place_.v);
-    known_[s] = place_.v;
     const double f = value_of(monitor_, accepted(probe_, place_));
     failed_ = std::isnan(f);
-    took(f, place_.piece);
+    took(f, s, place_);
     return f;
   }
 
   /// The monitored quantity at the last place.
   double quantity() { return quantity_of(monitor_, accepted(probe_, place_)); }
 
-  /// Notes the piece of a value: whether the last values of either sign, the ends of the bracket, lie on one.
-  void took(double f, std::uint64_t piece) { (f > 0 ? positive_piece_ : negative_piece_) = piece; }
-  bool changes_piece() const { return positive_piece_ != negative_piece_; }
+  /// Notes a value, also of an end of the section: the last ones of either sign are the ends of the bracket.
+  void took(double f, double s, const CurvePoint& place) {
+    End& end = f > 0 ? positive_ : negative_;
+    end.s = s;
+    end.v = place.v;
+    end.piece = place.piece;
+  }
+  /// Whether they lie on two pieces.
+  bool changes_piece() const { return positive_.piece != negative_.piece; }
 
   bool failed() const { return failed_; }
-  void forget_failure() { failed_ = factors_ = false; }
   const CurvePoint& place() const { return place_; }
   const Correction& correction() const { return correction_; }
 
@@ -263,16 +270,6 @@ class OnSection {
            settle(probe_, place_);
   }
 
-  void guess_between(double s) {
-    double below = 0, above = 1;
-    const Vector *lower = &from_.v, *upper = &to_.v;
-    for (const auto& [at, v] : known_) {
-      if (at <= s && at > below) below = at, lower = &v;
-      if (at > s && at < above) above = at, upper = &v;
-    }
-    guess_ = *lower + (s - below) / (above - below) * (*upper - *lower);
-  }
-
   Corrector& probe_;
   const Monitor& monitor_;
   const CurvePoint &from_, &to_;
@@ -282,8 +279,12 @@ class OnSection {
   CurvePoint place_;
   Correction correction_;
   bool factors_ = false, failed_ = false;
-  std::uint64_t positive_piece_ = 0, negative_piece_ = 0;
-  std::map<double, Vector> known_;  // places on the section
+  struct End {
+    double s;
+    Vector v;
+    std::uint64_t piece;
+  };
+  End positive_, negative_;
 };
 
 // The rounding of a quantity next to its extremum at s: its spread over a part of the section in which it
@@ -360,23 +361,9 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Curv
     at_begin = value(begin);
   }
   if (value.failed()) return nearer_end(monitor, from, to);
-  value.took(b, to.piece);
+  value.took(b, 1, to);
   const auto at = [&](double s) { return value(s); };
-  const double tolerance = value.tolerance(options_.event_tolerance);
-  double end = 1, at_end = b;
-  Root root = find_root(at, begin, at_begin, end, at_end, tolerance);
-  // A trial may leave the branch, as next to a kink: others narrow the bracket.
-  for (double s : other_trials) {
-    if (!value.failed()) break;
-    if (!(s > begin && s < end)) continue;
-    value.forget_failure();
-    const double here = value(s);
-    if (value.failed()) continue;
-    const bool is_end = (here > 0) == (at_end > 0);
-    (is_end ? end : begin) = s;
-    (is_end ? at_end : at_begin) = here;
-    root = find_root(at, begin, at_begin, end, at_end, tolerance);
-  }
+  const Root root = find_root(at, begin, at_begin, 1, b, value.tolerance(options_.event_tolerance));
   if (value.failed()) return nearer_end(monitor, from, to);
   const double left = value(root.x);
   if (value.failed()) return nearer_end(monitor, from, to);
