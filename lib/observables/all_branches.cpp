@@ -305,6 +305,7 @@ class AllBranches {
     ResponseBranch& response = run.known.response;
     run.course.move_to(response);
     finish(run, from, response);
+    estimate_bifurcations(response);
     response.unknown_stability = run.observer->unknown_stability();
     const auto& points = response.points;
     if (!points.empty()) {

@@ -104,6 +104,7 @@ class Sweep {
     result.unknown_stability = traced.unknown_stability;
     result.solver.unknowns = traced.problem->size();
     finish(traced, from, course);
+    estimate_bifurcations(result);
     result.solver.seconds = seconds_since(began);
     return {std::move(result), traced.problem, std::move(traced.branch.events)};
   }

@@ -148,6 +148,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
   if (!truncation_) truncation_ = std::make_unique<Truncation>(*problem_, free_, now.p);
   const TruncationEstimate truncation = truncation_->estimate(now, at_most, held);
   point.truncation_estimate = truncation.amplitude;
+  point.location_estimate = truncation.location;
   point.truncation_flagged = truncation.flagged || !point.stops.empty();
   if (stability_) add_stability(now, point);
   point.energy_input = input_energy(*problem_, at, now.u);

@@ -173,6 +173,7 @@ class Traces {
         continuation::trace(problem, {u, p, way_.index, direction}, options, std::move(monitors), record);
     result.unknown_stability = observer->unknown_stability();
     drop_extrema_of_rounding(course, at, result);
+    estimate_bifurcations(result);
     result.solver.unknowns = problem->size();
     add(branch.counts, result.solver);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

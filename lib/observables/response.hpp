@@ -118,14 +118,15 @@ struct Synthesis {
 
 /// One periodic response.
 struct ResponsePoint {
-  double omega = 0;                 // excitation frequency, rad/s
-  double over = 0;                  // the parameter ResponseBranch::over, if there is one
-  double amplitude = 0;             // max over the period of |x|, m, at the scene's response; at several
-                                    // places: the largest, to which all else of the response belongs
-  double rms = no_value;            // root of the mean of x^2 over the period, m
-  double phase = 0;                 // rad, lag of the response's fundamental behind the force's
-  double truncation_estimate = 0;   // m, estimated effect of the neglected harmonics on the amplitude
-  bool truncation_flagged = false;  // the estimate may be too low (truncation.hpp, stops.hpp)
+  double omega = 0;                     // excitation frequency, rad/s
+  double over = 0;                      // the parameter ResponseBranch::over, if there is one
+  double amplitude = 0;                 // max over the period of |x|, m, at the scene's response; at several
+                                        // places: the largest, to which all else of the response belongs
+  double rms = no_value;                // root of the mean of x^2 over the period, m
+  double phase = 0;                     // rad, lag of the response's fundamental behind the force's
+  double truncation_estimate = 0;       // m, estimated effect of the neglected harmonics on the amplitude
+  bool truncation_flagged = false;      // the estimate may be too low (truncation.hpp, stops.hpp)
+  double location_estimate = no_value;  // of an event: the same effect on omega or over; no_value: not known
   std::string stops;           // an element whose motion stops where it reverses (stops.hpp); empty: none
   double energy_friction = 0;  // J per period
   double energy_viscous = 0;   // J per period

@@ -298,4 +298,28 @@ void set_apart(const std::string& kind, ResponsePoint& point) {
     stability.unstable = count_unstable(without(stability.multipliers, own));
 }
 
+void estimate_bifurcations(ResponseBranch& branch) {
+  const auto place = [&](const ResponsePoint& point) {
+    return branch.over.empty() ? point.omega : point.over;
+  };
+  // Its distance from the circle, along the real axis or in modulus.
+  const auto distance_of = [](const std::string& kind, const Multipliers& multipliers) {
+    if (kind == event_kinds::neimark_sacker) return std::abs(pair_nearest_circle(multipliers)) - 1;
+    const double at = kind == event_kinds::period_doubling ? -1 : 1;
+    return std::real(nearest_two(multipliers, at)[0]) - at;
+  };
+  for (ResponseEvent& event : branch.events) {
+    if (event.after + 1 >= branch.points.size() || !event.point.stability) continue;
+    if (std::find(event_kinds::of_curves.begin(), event_kinds::of_curves.end(), event.kind) ==
+        event_kinds::of_curves.end())
+      continue;
+    const ResponsePoint &before = branch.points[event.after], &beyond = branch.points[event.after + 1];
+    if (!before.stability || !beyond.stability) continue;
+    const double change = distance_of(event.kind, beyond.stability->multipliers) -
+                          distance_of(event.kind, before.stability->multipliers);
+    const double estimate = event.point.stability->error * std::abs((place(beyond) - place(before)) / change);
+    if (std::isfinite(estimate)) event.point.location_estimate = estimate;
+  }
+}
+
 }  // namespace arcslip::observables

@@ -80,6 +80,10 @@ const Multipliers& of_map(const StabilityAnalysis& found, const hbm::HbmProblem&
 /// or not by rounding, and the rotation number of a Neimark-Sacker point.
 void set_apart(const std::string& kind, ResponsePoint& point);
 
+/// location_estimate of the bifurcations of a branch: the error of their multipliers, over the change of the
+/// multiplier on the circle between the points on both sides.
+void estimate_bifurcations(ResponseBranch& branch);
+
 /// The multipliers at a point; null: not known there.
 using MultipliersAt = std::function<const Multipliers*(const continuation::Accepted&)>;
 

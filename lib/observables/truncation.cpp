@@ -24,7 +24,7 @@ constexpr double at_corner = 1e-6;       // |h| over its size
 constexpr double resolved = 0.02;        // change of the harmonics kept with samples, over those left out
 constexpr double converging = 0.3;       // second sweep over the first
 constexpr double cancelled = 0.02;       // |dA| over the change of the response
-constexpr double uncancelled = 0.05;     // of the change of the response: what remains where |dA| cancels
+constexpr double uncancelled = 0.05;     // of the change of the response, or of parts: what remains of them
 constexpr double small_change = 0.1;     // of the response, over its amplitude
 constexpr double tolerance = 1e-6;  // of the response, over its amplitude: below, what cancels is 5e-8 of it
 
@@ -184,9 +184,10 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   for (std::size_t e = 0; e < wide_.at().element_count(); ++e)
     force = std::max(force, wide_.at().element(e).force().cwiseAbs().maxCoeff());
   exact_ = residual_.cwiseAbs().maxCoeff() <= linear_motion * force;
-  if (exact_) return {};
+  if (exact_) return {.location = held == HeldBy::parameter ? no_value : 0};
 
   bool flagged = resonance_left_out(now) || samples_too_few();
+  double location = no_value;
   wide_.factorize(free_);
   if (held != HeldBy::corner || !to_corner(now)) {
     const double enough = tolerance * now.u.norm();
@@ -194,9 +195,13 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
     wide_.embed(now.tangent.head(n), tangent_.u);
     tangent_.parameter = now.tangent[n];
     const Step step = step_along(now, held);
+    if (held == HeldBy::extremum) location = shift_of_extremum(now, extreme);
     change_.u += step.length * tangent_.u;
     change_.parameter += step.length * tangent_.parameter;
     flagged = flagged || !converges || !step.known;
+    if (held == HeldBy::fold && step.known) location = std::abs(change_.parameter);
+  } else {
+    location = std::abs(change_.parameter);
   }
   wide_.at().stiffness().response(change_.u, 0, response_, extreme.place);
   if (held != HeldBy::parameter) {
@@ -209,7 +214,8 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   const double size = response_.norm();
   if (!std::isfinite(change)) return {0, true};
   const bool cancels = change < cancelled * size && size > tolerance * extreme.amplitude;
-  return {cancels ? uncancelled * size : change, flagged || size > small_change * extreme.amplitude};
+  return {cancels ? uncancelled * size : change, flagged || size > small_change * extreme.amplitude,
+          std::isfinite(location) ? location : no_value};
 }
 
 std::optional<Truncation::Refined> Truncation::refined(const continuation::Accepted& now, Reach reach) {
@@ -286,27 +292,28 @@ Truncation::Step Truncation::step_along(const continuation::Accepted& now, HeldB
   if (held == HeldBy::fold) {
     const auto slope = slope_along(wide_, change_, true, now);
     const auto bend = slope_along(wide_, tangent_, false, now);
-    return slope && bend ? Step{-*slope / *bend, true} : Step{0, false};
+    return slope && bend ? Step{-slope->parameter / bend->parameter, true} : Step{0, false};
   }
   const auto bend = bend_of_branch(now);
   if (!bend) return {0, false};
-  const double root = t * t - 2 * *bend * d;  // on the parabola of the branch
-  if (root < 0) return {-t / *bend, false};   // which ends before: its fold is next
+  const double root = t * t - 2 * bend->parameter * d;  // on the parabola of the branch
+  if (root < 0) return {-t / bend->parameter, false};   // which ends before: its fold is next
   return {-2 * d / (t + std::copysign(std::sqrt(root), t)), true};
 }
 
-// q'', from the equations of order N: what the harmonics above add to it is of higher order.
-std::optional<double> Truncation::bend_of_branch(const continuation::Accepted& now) {
+// u'' and q'', from the equations of order N: what the harmonics above add to them is of higher order.
+std::optional<Truncation::Change> Truncation::bend_of_branch(const continuation::Accepted& now) {
   const Eigen::Index n = problem_.size();
   if (!narrow_.move_to(now.u, now.p)) return {};
   narrow_.factorize(free_);
   return slope_along(narrow_, {now.tangent.head(n), now.tangent[n]}, false, now);
 }
 
-// The parameter of the solution for the right-hand side (J x + r)' or (J x)', the derivative along t at
+// x', of the solution x of J x = -r or of the tangent, J x = 0, along t: J x' = -(J x + r)' or -(J x)' at
 // fixed x.
-std::optional<double> Truncation::slope_along(WideEquations& in, const WideEquations::Change& x,
-                                              bool with_residual, const continuation::Accepted& now) {
+std::optional<Truncation::Change> Truncation::slope_along(WideEquations& in, const Change& x,
+                                                          bool with_residual,
+                                                          const continuation::Accepted& now) {
   in.embed(now.u, base_);
   in.embed(now.tangent.head(now.u.size()), along_);
   const double size = std::max(1.0, now.u.norm() / problem_.displacement());
@@ -330,7 +337,42 @@ std::optional<double> Truncation::slope_along(WideEquations& in, const WideEquat
       quotient->here * middle + quotient->weight[0] * beside[0] + quotient->weight[1] * beside[1];
   WideEquations::Change change;
   in.solve(now.bordered, slope, {}, change);
-  return change.parameter;
+  return change;
+}
+
+// The response to a change of (u, q) at the instant of the extremum, with derivatives by the angle.
+elements::Values Truncation::response_to(WideEquations& in, const Change& x,
+                                         const continuation::Accepted& now, const Extreme& extreme) {
+  const hbm::DynamicStiffness& stiffness = in.at().stiffness();
+  const auto& h = in.problem().harmonics();
+  Vector response(h.size()), by_parameter(h.size());
+  in.embed(now.u, base_);
+  stiffness.response(x.u, 0, response, extreme.place);
+  stiffness.response_derivative(free_, base_, in.at().force_factor(), by_parameter, extreme.place);
+  response += x.parameter * by_parameter;
+  return elements::series_values(h, response, extreme.theta);
+}
+
+// Of an extremum in q. Its instant theta moves along the branch by theta' = -x_st/x_tt (t: by theta), so that
+//
+//   A'' = x_ss + x_st theta',   (dA)' = d(x)' + d(x)_t theta'
+double Truncation::shift_of_extremum(const continuation::Accepted& now, const Extreme& extreme) {
+  const auto bend = bend_of_branch(now);
+  const auto rate = slope_along(wide_, change_, true, now);
+  if (!bend || !rate) return no_value;
+  const Eigen::Index n = now.u.size();
+  const auto& narrow = narrow_.at().stiffness();
+  Vector motion(narrow_.problem().harmonics().size());
+  narrow.response(now.u, narrow_.at().force_factor(), motion, extreme.place);
+  const double bent = elements::series_values(narrow_.problem().harmonics(), motion, extreme.theta).d2;
+  const elements::Values by_s = response_to(narrow_, {now.tangent.head(n), now.tangent[n]}, now, extreme);
+  const double turning = -by_s.d1 / bent;
+  const double curvature = response_to(narrow_, *bend, now, extreme).x + turning * by_s.d1;
+  const double along = now.tangent[n] / curvature;
+  const double by_rate = -along * response_to(wide_, *rate, now, extreme).x;
+  const double by_turning = -along * turning * response_to(wide_, change_, now, extreme).d1;
+  const double parts = std::abs(change_.parameter) + std::abs(by_rate) + std::abs(by_turning);
+  return std::max(std::abs(change_.parameter + by_rate + by_turning), uncancelled * parts);
 }
 
 // The change at which the slip corner next to the point remains one.

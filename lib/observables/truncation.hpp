@@ -12,6 +12,9 @@
 //   a fold             it moves along the branch to where dq/ds is zero again, c = -d_q' / q''
 //   a corner           h = 0 (hbm/corner.hpp) holds for d + c t
 //
+// The place of an event in q moves by d_q + c t_q; that of an extremum, which is where dA/ds is zero again,
+// by the same with c = -(dA)'/A''.
+//
 // Derivatives with respect to s are differences along t. The estimate is |dA|, not a bound; where dA all but
 // vanishes, as where it changes sign, |dx|/20 with the change dx of the response, since the harmonics beyond
 // add a few percent of that. It is flagged if it may be far too low: N omega is below the highest natural
@@ -22,6 +25,7 @@
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/observables/amplitude.hpp>
+#include <arcslip/observables/response.hpp>
 #include <arcslip/observables/wide_equations.hpp>
 
 #include <optional>
@@ -31,6 +35,7 @@ namespace arcslip::observables {
 struct TruncationEstimate {
   double amplitude = 0;  // m
   bool flagged = false;
+  double location = no_value;  // of an event, in units of q; no_value: not known
 };
 
 /// The condition that defines a point of a branch.
@@ -64,9 +69,13 @@ class Truncation {
     bool known;  // otherwise what holds the point may need another one
   };
 
-  std::optional<double> bend_of_branch(const continuation::Accepted& now);
-  std::optional<double> slope_along(WideEquations& in, const WideEquations::Change& x, bool with_residual,
+  using Change = WideEquations::Change;
+  std::optional<Change> bend_of_branch(const continuation::Accepted& now);
+  std::optional<Change> slope_along(WideEquations& in, const Change& x, bool with_residual,
                                     const continuation::Accepted& now);
+  double shift_of_extremum(const continuation::Accepted& now, const Extreme& extreme);
+  elements::Values response_to(WideEquations& in, const Change& x, const continuation::Accepted& now,
+                               const Extreme& extreme);
   Step step_along(const continuation::Accepted& now, HeldBy held);
   bool to_corner(const continuation::Accepted& now);
   bool resonance_left_out(const continuation::Accepted& now);

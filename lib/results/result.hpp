@@ -47,6 +47,8 @@ struct Shown {
   std::vector<std::string> path;  // of a column, or of a fact of the end
   std::string format = "%.8g";    // of a number, as printf has it
   std::string otherwise{};        // a flag whose name stands where there is no value and the flag is true
+  std::string error{};            // a column with its estimated error: digits that it moves are not shown
+  double error_unit = 1;          // of that column, in the unit of this one
 };
 
 /// The structure of all results of a study.

@@ -3,9 +3,7 @@
 #include <arcslip/results/text.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <ostream>
 #include <type_traits>
 #include <utility>
@@ -17,14 +15,12 @@ using Row = std::vector<std::string>;
 
 constexpr const char* no_value = "-";
 
-std::string text_of(const Value& value, const std::string& format) {
+std::string text_of(const Value& value, const std::string& format, double error = 0) {
   return std::visit(
       [&](const auto& is) -> std::string {
         using Is = std::decay_t<decltype(is)>;
         if constexpr (std::is_same_v<Is, double>) {
-          std::array<char, 64> text{};
-          std::snprintf(text.data(), text.size(), format.c_str(), is);
-          return std::isfinite(is) ? text.data() : no_value;
+          return std::isfinite(is) ? with_error(is, error, format.c_str()) : no_value;
         } else if constexpr (std::is_same_v<Is, long>) {
           return std::to_string(is);
         } else if constexpr (std::is_same_v<Is, std::string>) {
@@ -53,7 +49,9 @@ Row cells(const std::vector<Shown>& shown, const Object& object, const Object& f
   for (const Shown& each : shown) {
     const Value* value = find(object, each.path);
     if (!value) value = find(facts, each.path);
-    row.push_back(value ? text_of(*value, each.format) : no_value);
+    const Value* estimate = each.error.empty() ? nullptr : find(object, {&each.error, 1});
+    const auto* error = estimate ? std::get_if<double>(&estimate->get()) : nullptr;
+    row.push_back(value ? text_of(*value, each.format, error ? *error * each.error_unit : 0) : no_value);
     if (row.back() != no_value || each.otherwise.empty()) continue;
     const Value* flag = find(object, {&each.otherwise, 1});
     if (flag && std::holds_alternative<bool>(flag->get()) && std::get<bool>(flag->get()))

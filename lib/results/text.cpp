@@ -1,5 +1,7 @@
 #include <arcslip/results/text.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -102,6 +104,22 @@ std::string json_quoted(std::string_view text) {
     text.remove_prefix(next.size);
   }
   return out += '"';
+}
+
+std::string with_error(double value, double error, const char* format) {
+  std::string shorter = format;
+  int most = 0;
+  char conversion = 0;
+  if (std::isfinite(value) && value != 0 && std::isfinite(error) && error > 0 &&
+      std::sscanf(format, "%%.%d%c", &most, &conversion) == 2) {
+    const double last = std::ceil(std::log10(2 * error)), first = std::floor(std::log10(std::abs(value)));
+    const double digits = conversion == 'f' ? -last : conversion == 'e' ? first - last : first - last + 1;
+    const double least = conversion == 'g' ? 1 : 0;
+    shorter = "%." + std::to_string(std::lround(std::clamp(digits, least, 1.0 * most))) + conversion;
+  }
+  std::array<char, 512> text{};
+  std::snprintf(text.data(), text.size(), shorter.c_str(), value);
+  return text.data();
 }
 
 std::string with_unit(std::string_view quantity, std::string_view unit) {

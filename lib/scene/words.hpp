@@ -35,7 +35,7 @@ inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
 
 /// Names of quantities in results, which the continuation parameter of a study must not have.
-inline constexpr std::array<std::string_view, 39> result_names = {"kind",
+inline constexpr std::array<std::string_view, 40> result_names = {"kind",
                                                                   "stable",
                                                                   "unstable_multipliers",
                                                                   "multipliers",
@@ -50,6 +50,7 @@ inline constexpr std::array<std::string_view, 39> result_names = {"kind",
                                                                   "phase",
                                                                   "truncation_estimate",
                                                                   "truncation_flagged",
+                                                                  "location_estimate",
                                                                   "rms",
                                                                   "energy_friction",
                                                                   "energy_viscous",

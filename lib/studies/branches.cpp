@@ -46,6 +46,12 @@ struct Tables {
                [](const ResponseEvent& event) { return event.after; });
     asked.maxima = !asked.mode;
     events.add(responses(scene, asked), [](const ResponseEvent& event) { return &event.point; });
+    if (!asked.mode)
+      events.add(
+          {"location_estimate"}, "",
+          "estimated effect of the neglected harmonics on `omega`, or on the parameter of a response over "
+          "another one, in its unit; null where it is not known",
+          [](const ResponseEvent& event) { return event.point.location_estimate; });
   }
 
   results::TableOf<ResponsePoint> points;
@@ -55,12 +61,24 @@ struct Tables {
 std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked) {
   std::vector<results::Shown> all;
   if (asked.leaving) all = {{"no.", {"id"}}, {"period", {"period"}}};
+  // Of the parameter that the branch is over; on a curve of special points of their frequency.
+  const std::string location = "location_estimate";
+  const bool of_frequency = asked.over.empty() || asked.maxima;
   if (!asked.over.empty())
-    all.push_back({results::with_unit(asked.over, parameter_unit(scene, asked.over)), {asked.over}});
+    all.push_back({.title = results::with_unit(asked.over, parameter_unit(scene, asked.over)),
+                   .path = {asked.over},
+                   .error = of_frequency ? "" : location});
   all.push_back({"event", {"kind"}});
-  all.push_back(
-      {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"});
-  all.push_back({asked.mode ? "A (m)" : "A_max (m)", {"amplitude"}, "%.8e", "unbounded"});
+  all.push_back({.title = results::with_unit("frequency", scene::unit_name(scene.frequency_unit)),
+                 .path = {"frequency"},
+                 .format = "%.8f",
+                 .error = of_frequency ? location : "",
+                 .error_unit = in_scene_unit(scene, 1)});
+  all.push_back({.title = asked.mode ? "A (m)" : "A_max (m)",
+                 .path = {"amplitude"},
+                 .format = "%.8e",
+                 .otherwise = "unbounded",
+                 .error = "truncation_estimate"});
   if (asked.mode) all.push_back({"damping ratio", {"damping_ratio"}, "%.8f"});
   add_stick(scene, all);
   if (asked.stability) all.push_back({"stable", {"stable"}});

@@ -2,11 +2,10 @@
 
 #include <arcslip/observables/prepare.hpp>
 #include <arcslip/observables/quantities.hpp>
+#include <arcslip/results/text.hpp>
 #include <arcslip/results/version.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -183,20 +182,12 @@ std::string doubt_of_stops(const std::string& element) {
                                "error falls slowly with the harmonics; give the contact a stiffness";
 }
 
-namespace {
-
-std::string eight_digits(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.8g", value);
-  return text.data();
-}
-
-}  // namespace
-
 std::string unstable_ranges(const scene::Scene& scene, const observables::ResponseBranch& branch) {
   // Between the events that the range ends with, where there are any.
-  const auto value = [&](const ResponsePoint& point) {
-    return branch.over.empty() ? in_scene_unit(scene, point.omega) : point.over;
+  const auto text_of = [&](const ResponsePoint& at) {
+    const double unit = branch.over.empty() ? in_scene_unit(scene, 1) : 1;
+    return results::with_error(unit * (branch.over.empty() ? at.omega : at.over), unit * at.location_estimate,
+                               "%.8g");
   };
   const auto& points = branch.points;
   const auto is_unstable = [&](std::size_t i) {
@@ -210,14 +201,14 @@ std::string unstable_ranges(const scene::Scene& scene, const observables::Respon
     }
     std::size_t last = i;
     while (last + 1 < points.size() && is_unstable(last + 1)) ++last;
-    double from = value(points[i]), to = value(points[last]);
+    const ResponsePoint *from = &points[i], *to = &points[last];
     for (const auto& event : branch.events) {
-      if (i > 0 && event.after + 1 == i) from = value(event.point);
-      if (last + 1 < points.size() && event.after == last) to = value(event.point);
+      if (i > 0 && event.after + 1 == i) from = &event.point;
+      if (last + 1 < points.size() && event.after == last) to = &event.point;
     }
     text +=
         (text.empty() ? (branch.of.empty() ? "unstable from " : "no limit of stability from ") : ", from ") +
-        eight_digits(from) + " to " + eight_digits(to);
+        text_of(*from) + " to " + text_of(*to);
     i = last + 1;
   }
   if (text.empty()) return text;

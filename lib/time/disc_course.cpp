@@ -127,10 +127,10 @@ DiscCourse::Slip DiscCourse::slip_at(const Place& place) const {
   slip.g = speed / p.h;
   slip.turning = across / p.h;
   slip.turning_rate = (slip.t.dot(p.a) - slip.turning * (slip.n.dot(p.v) + p.dh)) / p.h;
-  if (!(slip.g >= fast_) || theta < phase->settled) return slip;
+  if (!(speed > 0)) return slip;
   const double gain = slip.n.dot(p.a) + slip.turning * across - p.ddh;
   const double r = p.h / speed, rate = (p.dh - r * gain) / speed;
-  slip.relaxes = std::abs(rate) <= steady;
+  slip.relaxes = slip.g >= fast_ && theta >= phase->settled && std::abs(rate) <= steady;
   slip.first = r / (1 + rate);
   slip.second = r * r / ((1 + rate) * (1 + 2 * rate));
   return slip;
@@ -173,19 +173,17 @@ void DiscCourse::at(double angle, Values& values) const {
   values.rate_by_q.row(0) << (turning * n - g * t).transpose(), -turning * by_normal;
 }
 
-void DiscCourse::relax(double theta, const Matrix& dq, const Matrix& dv, Matrix& memory) const {
+void DiscCourse::relax(double theta, const Matrix& dq, const Matrix& dv, const Matrix& da,
+                       Matrix& memory) const {
   const Place place = place_of(theta);
-  if (!has_friction(*place.phase)) {  // at its opening
-    memory.setZero();
-    return;
-  }
+  memory.setZero();
+  if (!has_friction(*place.phase)) return;  // at its opening
   const Slip slip = slip_at(place);
-  memory.col(0) =
-      dv.leftCols<2>() * (slip.first * slip.t + slip.second * slip.turning * slip.n) -
-      dq.leftCols<2>() * slip.t +
-      radius_by_normal() * ((slip.second * slip.turning_rate - slip.first * slip.turning) * dq.col(2) +
-                            slip.second * slip.turning * dv.col(2));
-  memory.col(1).setZero();
+  const double h = radius_by_normal();
+  const Vector S = dv.leftCols<2>() * slip.t - h * slip.turning * dq.col(2);
+  const Vector rate = da.leftCols<2>() * slip.t - slip.turning * (dv.leftCols<2>() * slip.n) -
+                      h * (slip.turning_rate * dq.col(2) + slip.turning * dv.col(2));
+  memory.col(0) = slip.first * S - slip.second * rate - dq.leftCols<2>() * slip.t;
 }
 
 void DiscCourse::pass(std::size_t change, const Matrix& dq, Matrix& memory) const {

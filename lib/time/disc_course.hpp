@@ -57,9 +57,8 @@ class DiscCourse {
   const std::vector<double>& breaks() const { return breaks_; }
   /// At an angle between two of these.
   void at(double theta, Values& values) const;
-  /// The memory at the end of a part that is relaxed: dq, its derivative and the memory, a row for each
-  /// start.
-  void relax(double theta, const Matrix& dq, const Matrix& dv, Matrix& memory) const;
+  /// The memory at the end of a part that is relaxed: dq, dq', dq'' and the memory, a row for each start.
+  void relax(double theta, const Matrix& dq, const Matrix& dv, const Matrix& da, Matrix& memory) const;
   /// Passes a change.
   void pass(std::size_t change, const Matrix& dq, Matrix& memory) const;
   /// How much of the memory is free at an angle, as starts: 2 in stick, 1 in slip, else 0, as where the

@@ -177,11 +177,14 @@ double EquationRates::base_at(const EquationOfMotion& equation, double t) const 
   return sum;
 }
 
+double size_of_parameter(const model::Model& model, const continuation::Vector& p, int k) {
+  const double size = std::max(std::abs(p[k]), model.parameters[static_cast<std::size_t>(k)].scale);
+  return size > least_size ? size : 1;
+}
+
 std::optional<EquationRates> equation_rates(const model::Model& model, const continuation::Vector& p, int k) {
   EquationRates rates;
-  const double scale = model.parameters[static_cast<std::size_t>(k)].scale,
-               size = std::max(std::abs(p[k]), scale);
-  const double h = size > least_size ? size : 1;
+  const double h = size_of_parameter(model, p, k);
   continuation::Vector above_p = p, below_p = p;
   above_p[k] += h;
   below_p[k] -= h;

@@ -39,6 +39,9 @@ struct EquationRates {
   double base_at(const EquationOfMotion& equation, double t) const;
 };
 
+/// That of p[k] or of its parameter, if it is larger; 1 where both are 0.
+double size_of_parameter(const model::Model& model, const continuation::Vector& p, int k);
+
 /// By parameter k at p. Nothing where an element has other modes beside p than at p, as at a normal load of
 /// 0. Throws NotInTime.
 std::optional<EquationRates> equation_rates(const model::Model& model, const continuation::Vector& p, int k);

@@ -283,7 +283,8 @@ struct Floquet::Impl {
     if (h * std::max(in_series, coefficients.memory) <= longest && last <= most_left_out &&
         varying.left_out(start + from, h) <= most_left_out) {
       variation.move(h, rate, varying.variables(), W, V);
-      varying.end_piece(start + from + h, W, V);
+      if (varying.any_relaxed())
+        varying.relax(start + from + h, W, V, variation.acceleration(varying.variables(), W, V));
       return true;
     }
     const int shares = std::max(2, static_cast<int>(std::ceil(h * fastest / longest)));

@@ -16,8 +16,7 @@ using continuation::Out;
 
 namespace {
 
-constexpr double just_beside = 1e-9;    // of the scale of a parameter
-constexpr double least_scale = 1e-200;  // of one that has a size
+constexpr double just_beside = 1e-9;  // of the size of a parameter
 
 }  // namespace
 
@@ -105,7 +104,7 @@ const ShootingEvaluator::ByParameter& ShootingEvaluator::by(int k) const {
   auto rates = equation_rates(problem_.model(), p, k);
   if (!rates) {
     // Where an element has other modes beside p than at p, as at a normal load of 0, those beside it.
-    p[k] += just_beside * (parameter.scale > least_scale ? parameter.scale : 1);
+    p[k] += just_beside * size_of_parameter(problem_.model(), p, k);
     rates = equation_rates(problem_.model(), p, k);
   }
   if (!rates) {

@@ -63,6 +63,33 @@ void Variation::move(double h, double fastest, std::vector<Variable>& variables,
     series(h / pieces, time::terms_of(h * fastest / pieces), G_, variables, W, V);
 }
 
+Matrix Variation::acceleration(const std::vector<Variable>& variables, const Matrix& W,
+                               const Matrix& V) const {
+  Matrix A = G_.size() > 0 ? G_ : Matrix::Zero(W.rows(), W.cols());
+  for (Eigen::Index i = 0; i < A.cols(); ++i)
+    for (std::size_t k = rows_[static_cast<std::size_t>(i)]; k < rows_[static_cast<std::size_t>(i) + 1]; ++k)
+      A.col(i) -= entries_[k].k * W.col(entries_[k].column) + entries_[k].c * V.col(entries_[k].column);
+  const auto add = [](const Matrix& of, const Matrix& coefficients, Matrix& force) {
+    for (Eigen::Index j = 0; j < coefficients.cols(); j += of.cols())
+      force.noalias() += of * coefficients.middleCols(j, of.cols()).transpose();
+  };
+  const auto along = [](const Variable& variable, const Matrix& of) {
+    Matrix all = Matrix::Zero(of.rows(), variable.directions);
+    for (const Variable::Entry& from : variable.from)
+      all.col(from.direction) += from.weight * of.col(from.dof);
+    return all;
+  };
+  for (const Variable& variable : variables) {
+    Matrix force = Matrix::Zero(W.rows(), variable.directions);
+    add(along(variable, W), variable.T, force);
+    if (variable.B.size() > 0) add(along(variable, V), variable.B, force);
+    if (variable.by_memory.size() > 0) add(variable.memory, variable.by_memory, force);
+    for (const Variable::Entry& onto : variable.onto)
+      A.col(onto.dof) -= onto.weight * force.col(onto.direction);
+  }
+  return A;
+}
+
 // Until the terms of a bound are negligible, w'' = fastest^2 w + sum_j |T_j| s^j w + ...: as many in a row as
 // one depends on. y: with the size of D^T.
 std::size_t Variation::terms_of(double h, double fastest, const std::vector<Variable>& variables) {

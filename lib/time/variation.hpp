@@ -42,6 +42,8 @@ class Variation {
   /// motion at most, their coefficients of s^j taken with their sizes.
   void move(double h, double fastest, std::vector<Variable>& variables, Matrix& W, Matrix& V);
   void move(double h, double fastest, Matrix& W, Matrix& V) { move(h, fastest, none_, W, V); }
+  /// w'' at the end of the piece, s = 1, without E.
+  Matrix acceleration(const std::vector<Variable>& variables, const Matrix& W, const Matrix& V) const;
 
  private:
   struct Entry {

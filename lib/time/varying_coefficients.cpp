@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -258,11 +259,15 @@ void VaryingCoefficients::set(Planar& law, double theta, double h, Piece& piece)
   piece.last += variable.size * last;
 }
 
-void VaryingCoefficients::end_piece(double theta, const Matrix& W, const Matrix& V) {
-  for (const Planar& law : planar_)
-    if (law.relaxed)
-      law.course.relax(theta, W * directions_[law.variable], V * directions_[law.variable],
-                       variables_[law.variable].memory);
+bool VaryingCoefficients::any_relaxed() const {
+  return std::any_of(planar_.begin(), planar_.end(), [](const Planar& law) { return law.relaxed; });
+}
+
+void VaryingCoefficients::relax(double theta, const Matrix& W, const Matrix& V, const Matrix& A) {
+  for (const Planar& law : planar_) {
+    const Matrix& D = directions_[law.variable];
+    if (law.relaxed) law.course.relax(theta, W * D, V * D, A * D, variables_[law.variable].memory);
+  }
 }
 
 double VaryingCoefficients::left_out(double theta, double h) const {

@@ -75,8 +75,9 @@ class VaryingCoefficients {
   /// yield may lie beyond the nodes: squared rate.
   double left_out(double theta, double h) const;
   std::vector<Variable>& variables() { return variables_; }
-  /// After this piece has been passed, W and V at its end.
-  void end_piece(double theta, const Matrix& W, const Matrix& V);
+  /// Whether slip is without memory on this piece; then the memory at its end, with W, W' and W'' there.
+  bool any_relaxed() const;
+  void relax(double theta, const Matrix& W, const Matrix& V, const Matrix& A);
 
  private:
   static constexpr int nodes = 8;

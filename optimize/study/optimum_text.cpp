@@ -28,10 +28,27 @@ std::string with_unit(const scene::Scene& scene, const std::string& parameter, d
   return number(value) + (unit.empty() || unit == "-" ? "" : " " + unit);
 }
 
+// Of an amplitude at a point, without the digits that the neglected harmonics move.
+std::string at_point(double amplitude, const observables::ResponsePoint& point) {
+  return results::with_error(amplitude, point.truncation_estimate, "%.8e") + " m";
+}
+
+// Of the worst case or of their mean: the largest of all.
+double estimate_of(const std::vector<LoadCaseResult>& cases) {
+  double largest = 0;
+  for (const auto& each : cases) largest = std::max(largest, each.weight * each.point.truncation_estimate);
+  return largest;
+}
+
+std::string frequency(const scene::Scene& scene, const observables::ResponsePoint& point) {
+  return results::with_error(studies::in_scene_unit(scene, point.omega),
+                             studies::in_scene_unit(scene, point.location_estimate), "%.8f") +
+         " " + std::string(scene::unit_name(scene.frequency_unit));
+}
+
 // With several friction elements their stick shares are written once, not for every case.
 std::string place(const scene::Scene& scene, const observables::ResponsePoint& point, std::size_t most) {
-  std::string text = number(studies::in_scene_unit(scene, point.omega), "%.8f") + " " +
-                     std::string(scene::unit_name(scene.frequency_unit));
+  std::string text = frequency(scene, point);
   std::vector<observables::ElementResponse> contacts;  // and patches
   for (const auto* list : {&point.elements, &point.patches})
     for (const auto& element : *list)
@@ -46,8 +63,8 @@ void write_cases(std::ostream& out, const scene::Scene& scene, const OptimumResu
   const bool mean = result.problem.criterion == Criterion::mean;
   const auto& cases = result.optimum.cases;
   for (std::size_t c = 0; c < std::min(cases.size(), most_cases); ++c)
-    out << "    " << case_text(scene, result.problem, cases[c]) << ": " << number(cases[c].amplitude, "%.8e")
-        << " m at " << place(scene, cases[c].point, 1)
+    out << "    " << case_text(scene, result.problem, cases[c]) << ": "
+        << at_point(cases[c].amplitude, cases[c].point) << " at " << place(scene, cases[c].point, 1)
         << (cases[c].weight == 1 ? "" : ", weight " + number(cases[c].weight, "%.4g"))
         << (cases[c].active && !mean ? ", active" : "") << '\n';
   if (cases.size() > most_cases)
@@ -63,9 +80,8 @@ void write_curve(std::ostream& out, const scene::Scene& scene, const OptimumCurv
     for (std::size_t k = 0; k < point.design.size(); ++k)
       out << result.problem.over[k].name << " = "
           << with_unit(scene, result.problem.over[k].name, point.design[k]) << ", ";
-    out << "A_max = " << number(point.amplitude, "%.8e") << " m at "
-        << number(studies::in_scene_unit(scene, point.response.omega), "%.8f") << ' '
-        << scene::unit_name(scene.frequency_unit) << what << (point.minimum ? "" : ", a saddle") << '\n';
+    out << "A_max = " << at_point(point.amplitude, point.response) << " at "
+        << frequency(scene, point.response) << what << (point.minimum ? "" : ", a saddle") << '\n';
   };
   std::size_t event = 0;
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
@@ -163,10 +179,11 @@ std::string text_of(const scene::Scene& scene, const OptimumResult& result) {
         << with_unit(scene, result.problem.over[k].name, found.design[k]) << '\n';
   if (result.has_cases()) {
     out << "  " << name(result.problem.criterion) << " of " << found.cases.size()
-        << (found.cases.size() == 1 ? " case = " : " cases = ") << number(found.amplitude, "%.8e") << " m\n";
+        << (found.cases.size() == 1 ? " case = " : " cases = ")
+        << results::with_error(found.amplitude, estimate_of(found.cases), "%.8e") << " m\n";
     write_cases(out, scene, result);
   } else {
-    out << "  A_max = " << number(found.amplitude, "%.8e") << " m at "
+    out << "  A_max = " << at_point(found.amplitude, found.point) << " at "
         << place(scene, found.point, std::numeric_limits<std::size_t>::max()) << '\n';
   }
   write_sums(out, result);

@@ -108,6 +108,28 @@ TEST_CASE("two masses and a stop lose their stability where NLvib's example 03 d
   check(coarse.second_doubling, fine.second_doubling, 0.7555862, 2e-5);
 }
 
+TEST_CASE("bifurcations tell how far the harmonics left out may move them") {
+  const struct {
+    const char* kind;
+    double at;
+  } exact[] = {{"neimark_sacker", 0.6186069}, {"period_doubling", 0.7387830}, {"period_doubling", 0.7555862}};
+  for (const int order : {41, 61, 161}) {
+    const auto branch = response(masses_and_stop(order), 0.57, 0.77);
+    for (const auto& [kind, at] : exact) {
+      CAPTURE(order, kind, at);
+      const observables::ResponsePoint* nearest = nullptr;
+      for (const auto& event : branch.events)
+        if (event.kind == kind &&
+            (!nearest || std::abs(event.point.omega - at) < std::abs(nearest->omega - at)))
+          nearest = &event.point;
+      REQUIRE(nearest);
+      const double error = std::abs(nearest->omega - at);
+      CHECK(nearest->location_estimate > 0.3 * error);
+      CHECK(nearest->location_estimate < 10 * error);
+    }
+  }
+}
+
 TEST_CASE("the small orbit of the double well doubles its period at the force known from elsewhere") {
   // x = 1 + y: -x + x^3 = 2 y + 3 y^2 + y^3.
   const auto s = duffing("polynomial_spring", R"("coefficients": {"2": 3, "3": 1})", 2, 0.3, 0.1, 24);

@@ -8,8 +8,10 @@
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/amplitude.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <optional>
+#include <vector>
 
 using namespace arcslip;
 using continuation::Vector;
@@ -46,10 +48,11 @@ std::optional<double> amplitude_in(const std::shared_ptr<const model::Model>& mo
 
 TEST_CASE(
     "truncation estimates of random hardening structures that are not flagged hold at events and between") {
-  // None is above the amplitude. At events none is below a quarter of the error, at other points one in 500
-  // below half of it.
+  // None is above the amplitude, and places are estimated as well. At events none is below a quarter of the
+  // error, at other points one in 500 below half of it.
   const std::uint64_t seeds = std::getenv("ARCSLIP_FULL") ? 400 : 40;
   long events = 0, flagged = 0, corners = 0, points = 0, low = 0;
+  std::vector<double> places;  // estimate over error
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     CAPTURE(seed);
     scene::Scene s = random_scenes::make_hardening(seed);
@@ -68,6 +71,10 @@ TEST_CASE(
       const double error = std::abs(event.point.amplitude - exact->amplitude);
       if (event.nonsmooth) ++corners;
       if (error > digits * exact->amplitude) CHECK(event.point.truncation_estimate > 0.25 * error);
+      const double moved = std::abs(event.point.omega - exact->omega);
+      if (!(moved > digits * exact->omega)) continue;
+      REQUIRE(event.point.location_estimate > 0);
+      places.push_back(event.point.location_estimate / moved);
     }
     const auto model = std::make_shared<const model::Model>(model::build(s));
     for (std::size_t k = 0; k < branch.points.size(); k += 15) {
@@ -82,4 +89,13 @@ TEST_CASE(
   CHECK(3 * flagged < events);
   CHECK(500 * (low - 1) <= points);  // one more by chance, where they are few
   CHECK(corners > 0);
+  // Of a place, which may change by the difference of several parts: one in 50 below 0.4 of the error.
+  REQUIRE(places.size() > 50);
+  std::sort(places.begin(), places.end());
+  const auto quantile = [&](double share) {
+    return places[static_cast<std::size_t>(share * static_cast<double>(places.size()))];
+  };
+  CHECK(quantile(0.02) > 0.4);
+  CHECK(quantile(0.5) == Approx(1).epsilon(0.02));
+  CHECK(quantile(0.95) < 3);
 }

@@ -40,6 +40,17 @@ TEST_CASE("where there is no value a flag that is true stands in its place") {
   CHECK(printed(results).find("     2.5      -              -  complete\n") != std::string::npos);
 }
 
+TEST_CASE("a number has the digits that its estimated error leaves, in its own unit") {
+  Results results = shown();
+  results.schemas[0].shown[0].error = "error";
+  results.schemas[0].shown[0].error_unit = 0.1;
+  auto& table = results.schemas[0].tables[0];
+  table.columns.push_back({{"error"}, Type::number});
+  results.results[0].tables[0].columns.push_back({std::vector<double>{0.3, std::nan("")}});
+  CHECK(printed(results).find("     2.5    0.1  =a, \"b\"     3  complete\n") != std::string::npos);
+  CHECK(printed(results).find("     2.5  -0.00              -  complete\n") != std::string::npos);
+}
+
 TEST_CASE("a result without rows has one that says so, and results of one kind share a table") {
   Results results = shown();
   results.results[1] = results.results[0];

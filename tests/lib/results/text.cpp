@@ -1,9 +1,11 @@
 #include <arcslip/results/text.hpp>
 
+#include <cmath>
+
 #include "catch.hpp"
 
 using arcslip::results::visible;
-using arcslip::results::visible_lines;
+using arcslip::results::visible_lines, arcslip::results::with_error;
 
 TEST_CASE("what commands a terminal, turns the direction of writing or is no character is escaped") {
   CHECK(visible("\x1b]0;owned\a\x1b[31m") == "\\u001b]0;owned\\u0007\\u001b[31m");
@@ -32,4 +34,19 @@ TEST_CASE("all other text stays, also what was escaped before, and line breaks w
   const std::string once = visible("\x1b\x9b\n");
   CHECK(visible(once) == once);
   CHECK(visible_lines("a\nb\x1b") == "a\nb\\u001b");
+}
+
+TEST_CASE("digits below twice an estimated error are not printed") {
+  CHECK(with_error(3.36660710e-3, 0, "%.8e") == "3.36660710e-03");
+  CHECK(with_error(3.36660710e-3, std::nan(""), "%.8e") == "3.36660710e-03");
+  CHECK(with_error(3.36660710e-3, 4e-8, "%.8e") == "3.3666e-03");
+  CHECK(with_error(3.36660710e-3, 6e-8, "%.8e") == "3.367e-03");
+  CHECK(with_error(3.36660710e-3, 1e-20, "%.8e") == "3.36660710e-03");
+  CHECK(with_error(3.36660710e-3, 1, "%.8e") == "3e-03");
+  CHECK(with_error(-31.89251693, 4e-4, "%.8f") == "-31.893");
+  CHECK(with_error(31.89251693, 100, "%.8f") == "32");
+  CHECK(with_error(24.533048, 4e-4, "%.8g") == "24.533");
+  CHECK(with_error(24.533048, 60, "%.8g") == "2e+01");
+  CHECK(with_error(0, 1e-3, "%.8f") == "0.00000000");
+  CHECK(with_error(HUGE_VAL, 1e-3, "%.2f") == "inf");
 }

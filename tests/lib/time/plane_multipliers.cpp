@@ -147,13 +147,17 @@ TEST_CASE("multipliers with friction in a plane are those of Newmark's method wi
   // about, and falls as the first power.
   const struct {
     double load, force, mu, error;
-  } cases[] = {{20, 40, 0.4, 5e-7}, {-3, 90, 0.4, 1e-4}, {8, 12, 0.4, 1e-4},  {40, 12, 0.4, 1e-4},
-               {40, 25, 0.4, 1e-4}, {0.5, 25, 3, 1e-4},  {0.5, 25, 12, 1e-4}, {8, 90, 2, 1e-4}};
+    double stiffness = 6e3;
+  } cases[] = {{20, 40, 0.4, 5e-7},      {-3, 90, 0.4, 1e-4},    {8, 12, 0.4, 1e-4},
+               {40, 12, 0.4, 1e-4},      {40, 25, 0.4, 1e-4},    {0.5, 25, 3, 1e-4},
+               {0.5, 25, 12, 1e-4},      {8, 90, 2, 1e-4},       {20, 40, 0.4, 5e-7, 6e4},
+               {20, 40, 0.4, 7e-7, 2e5}, {8, 12, 0.4, 1e-4, 6e5}};
   bool stuck = false, slipped = false;
-  for (const auto& [load, force, mu, error] : cases) {
-    CAPTURE(load, force, mu);
+  for (const auto& [load, force, mu, error, stiffness] : cases) {
+    CAPTURE(load, force, mu, stiffness);
     const auto pad = [&](int order) {
       auto s = contacts::plane_pad(order, force, load);
+      s.elements[0].values[0] = stiffness;
       s.elements[0].values[2] = mu;
       return s;
     };
