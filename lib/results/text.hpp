@@ -21,8 +21,8 @@ inline std::string shortest(double value) {
   return text;
 }
 
-/// A number in a format of printf with a precision ("%.8e", "%.8f", "%.8g"), without the digits whose unit is less
-/// than twice its estimated error. All of them where the error is not known (NaN) or 0.
+/// A number in a format of printf with a precision ("%.8e", "%.8f", "%.8g"), without the digits whose unit is
+/// less than twice its estimated error. All of them where the error is not known (NaN) or 0.
 std::string with_error(double value, double error, const char* format);
 
 /// "damper.normal_load (N)", the title of a column or an axis, escaped by visible().
