@@ -11,6 +11,7 @@
 #include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/contact_3d.hpp>
 #include <arcslip/observables/time_study.hpp>
+#include <arcslip/time/disc_course.hpp>
 #include <arcslip/time/floquet.hpp>
 
 #include <unsupported/Eigen/MatrixFunctions>
@@ -124,6 +125,56 @@ TEST_CASE("along a line of the plane a contact has the multipliers of the contac
                     harmonics, in_plane);
     CHECK(plane.size() >= line.size() + 2);
     CHECK(distance(line, plane) < 1e-9);
+  }
+}
+
+TEST_CASE("slip that relaxes has the force of its memory, up to the third power of its time") {
+  const elements::PlaneFriction::Contact contact{900, 700, 0.4, 2};
+  const elements::Harmonics harmonics{2};
+  Matrix q = Matrix::Zero(harmonics.size(), 3);
+  q(harmonics.cosine_index(1), 0) = 1;
+  q(harmonics.sine_index(1), 1) = 0.8;
+  q(harmonics.sine_index(2), 0) = 0.1;
+  q(harmonics.cosine_index(1), 2) = 3e-4;
+  q(harmonics.sine_index(2), 2) = 4e-4;
+  DiscCourse course(contact);
+  REQUIRE(course.follow(harmonics, q, 1));
+  REQUIRE(course.changes().empty());
+  // A disturbance, with two derivatives.
+  const Eigen::Array3d rate(1.3, 0.7, 1), phase(0, 1, 2);
+  const auto dq = [&](double theta, int order) {
+    const Eigen::Array3d at = rate * theta + phase + order * pi / 2;
+    return Matrix((at.cos() * rate.pow(order)).matrix().transpose());
+  };
+  const auto y_rate = [&](double theta, double y) {
+    DiscCourse::Values at;
+    course.at(theta, at);
+    return at.rate_by_memory(0, 0) * y + (at.rate_by_q.row(0) * dq(theta, 0).transpose())(0);
+  };
+  Matrix memory(1, 2);
+  double theta = 0.2;
+  course.relax(theta, dq(theta, 0), dq(theta, 1), dq(theta, 2), memory);
+  double y = memory(0, 0);
+  constexpr double h = 2e-4;
+  for (int i = 1; i <= 30000; ++i, theta += h) {
+    const double a = y_rate(theta, y), b = y_rate(theta + h / 2, y + h / 2 * a),
+                 c = y_rate(theta + h / 2, y + h / 2 * b), d = y_rate(theta + h, y + h * c);
+    y += h / 6 * (a + 2 * b + 2 * c + d);
+    if (i % 1000 != 0) continue;
+    const double end = theta + h;
+    CAPTURE(end);
+    DiscCourse::Values at;
+    course.at(end, at);
+    const double g = -at.rate_by_memory(0, 0);
+    REQUIRE(at.relaxes);
+    CHECK(g < 1e4);
+    const double left_out = 20 * std::pow(g, -3);
+    course.relax(end, dq(end, 0), dq(end, 1), dq(end, 2), memory);
+    CHECK(std::abs(memory(0, 0) - y) < left_out);
+    const Vector whole = at.by_q * dq(end, 0).transpose() + at.by_memory.col(0) * y;
+    const Vector relaxed = at.relaxed_by_q * dq(end, 0).transpose() + at.by_v * dq(end, 1).transpose() +
+                           at.by_a * dq(end, 2).transpose();
+    CHECK((whole - relaxed).norm() < contact.k_t * left_out);
   }
 }
 
