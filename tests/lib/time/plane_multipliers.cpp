@@ -193,7 +193,8 @@ TEST_CASE("a pad that sticks in the plane has the multipliers of its springs, an
   CHECK(difference(found, exact) < 1e-12);
 }
 
-TEST_CASE("multipliers with friction in a plane are those of Newmark's method with small steps") {
+TEST_CASE("multipliers with friction in a plane are those of Newmark's method with small steps",
+          "[numbers]") {
   // Its error is of second order in slip without end. The step in which a phase begins leaves one that jumps
   // about, and falls as the first power.
   const struct {
