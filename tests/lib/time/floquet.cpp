@@ -5,6 +5,7 @@
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
 #include "lib/laws/two_sliders.hpp"
+#include "lib/time/along_harmonics.hpp"
 #include "lib/time/beside_exact.hpp"
 #include "lib/time/cosine.hpp"
 #include "lib/time/multiplier_distance.hpp"
@@ -34,16 +35,6 @@ constexpr double pi = std::numbers::pi;
 std::uint64_t scene_count() {
   if (const char* count = std::getenv("ARCSLIP_SCENES")) return std::strtoull(count, nullptr, 10);
   return 8;
-}
-
-std::vector<Complex> along_harmonics(const beside_exact::Pair& pair) {
-  const auto evaluator = pair.problem->hbm_evaluator();
-  evaluator->move_to(pair.u, pair.p, continuation::Needs::residual);
-  std::vector<ElementCourse> courses;
-  courses_of(*pair.problem, *evaluator, courses);
-  Floquet floquet(pair.equation);
-  REQUIRE(floquet.compute(pair.equation.omega, pair.problem->harmonics(), courses));
-  return floquet.multipliers();
 }
 
 std::vector<Complex> exact_multipliers(const beside_exact::Pair& pair) {
@@ -117,7 +108,7 @@ TEST_CASE("the paper's oscillator has its multipliers, and their error falls wit
     CAPTURE(order);
     const auto pair = beside_exact::balanced(scenes::paper(order), 20);
     CHECK(pair.problem->harmonics().odd);
-    const auto found = along_harmonics(pair);
+    const auto found = along_harmonics::multipliers(pair);
     REQUIRE(found.size() == 3);
     CHECK(difference(found, exact) < error);
     CHECK(difference(found, exact_multipliers(pair)) < error);
@@ -130,7 +121,7 @@ TEST_CASE("a stuck slider has no multiplier, and one that always slips has 0: cl
   for (const auto& [load, stiffness] : {std::pair{100.0, 17890.0 + 3500}, {1e-9, 17890.0}}) {
     CAPTURE(load);
     const auto pair = beside_exact::balanced(scenes::paper(7, load), hertz);
-    const auto found = along_harmonics(pair);
+    const auto found = along_harmonics::multipliers(pair);
     const double decay = std::exp(-c / (2 * m) / hertz);
     const double rate = std::sqrt(stiffness / m - std::pow(c / (2 * m), 2)) / hertz;
     REQUIRE(found.size() == (load > 1 ? 2 : 3));
@@ -254,7 +245,7 @@ TEST_CASE("along harmonic balance the error of the multipliers falls at least li
       for (int i = 0; i < 2; ++i) {
         s.harmonics.order = i == 0 ? 21 : 61;
         const auto pair = beside_exact::balanced(s, at);
-        errors[i] = difference(along_harmonics(pair), exact_multipliers(pair));
+        errors[i] = difference(along_harmonics::multipliers(pair), exact_multipliers(pair));
       }
       CHECK(errors[1] < 1e-3);
       if (errors[0] < 1e-9) continue;
@@ -276,13 +267,9 @@ TEST_CASE("modes found by the guards give the multipliers of those that the elem
     const auto pair = beside_exact::balanced(seed % 2 == 0 ? random_contacts::with_contacts(s, seed, at)
                                                            : random_contacts::with_stops(s, seed, at),
                                              at);
-    const auto evaluator = pair.problem->hbm_evaluator();
-    evaluator->move_to(pair.u, pair.p, continuation::Needs::residual);
-    std::vector<ElementCourse> courses;
-    courses_of(*pair.problem, *evaluator, courses);
     Floquet floquet(pair.equation);
-    REQUIRE(floquet.compute(pair.equation.omega, pair.problem->harmonics(), courses));
-    const auto told = floquet.multipliers();
+    const auto told = along_harmonics::multipliers(pair, floquet);
+    auto courses = along_harmonics::courses(pair);
     for (auto& course : courses) course.contact.clear();
     REQUIRE(floquet.compute(pair.equation.omega, pair.problem->harmonics(), courses));
     CHECK(difference(told, floquet.multipliers()) < 1e-9);

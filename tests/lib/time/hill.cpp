@@ -3,6 +3,7 @@
 
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
+#include "lib/time/along_harmonics.hpp"
 #include "lib/time/beside_exact.hpp"
 #include "lib/time/cosine.hpp"
 #include "lib/time/systems.hpp"
@@ -35,10 +36,7 @@ struct Both {
 
 Both multipliers(const scene::Scene& s, double frequency) {
   const auto pair = beside_exact::balanced(s, frequency);
-  const auto evaluator = pair.problem->hbm_evaluator();
-  evaluator->move_to(pair.u, pair.p, continuation::Needs::residual);
-  std::vector<ElementCourse> courses;
-  courses_of(*pair.problem, *evaluator, courses);
+  const auto courses = along_harmonics::courses(pair);
   Floquet floquet(pair.equation);
   Hill hill(pair.equation);
   REQUIRE(floquet.compute(pair.equation.omega, pair.problem->harmonics(), courses));

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
+#include "lib/time/along_harmonics.hpp"
 #include "lib/time/beside_exact.hpp"
 #include "lib/time/cosine.hpp"
 #include "lib/time/multiplier_distance.hpp"
@@ -276,13 +277,7 @@ TEST_CASE("along harmonic balance the multipliers come to those of the march at 
   for (const int order : {5, 15, 45, 91}) {
     s.harmonics.order = order;
     const auto pair = beside_exact::balanced(s, structure.omega);
-    const auto evaluator = pair.problem->hbm_evaluator();
-    evaluator->move_to(pair.u, pair.p, continuation::Needs::residual);
-    std::vector<ElementCourse> courses;
-    time::courses_of(*pair.problem, *evaluator, courses);
-    Floquet floquet(pair.equation);
-    REQUIRE(floquet.compute(structure.omega, pair.problem->harmonics(), courses));
-    const double error = difference(floquet.multipliers(), exact);
+    const double error = difference(along_harmonics::multipliers(pair), exact);
     UNSCOPED_INFO(order << " harmonics: " << error);
     if (order == 5) first = error;
     CHECK(error < 2 * first * std::pow(5.0 / order, 3));

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
+#include "lib/time/along_harmonics.hpp"
 #include "lib/time/beside_exact.hpp"
 #include "lib/time/systems.hpp"
 
@@ -47,16 +48,6 @@ double trace_of_map(const EquationOfMotion& equation) {
   Floquet floquet(equation);
   REQUIRE(floquet.compute(equation.omega, {1}, {}));
   return floquet.map().trace();
-}
-
-// The courses of a response, and its multipliers.
-std::vector<Complex> along(const beside_exact::Pair& pair, Floquet& floquet) {
-  const auto at = pair.problem->hbm_evaluator();
-  at->move_to(pair.u, pair.p, continuation::Needs::residual);
-  std::vector<ElementCourse> courses;
-  courses_of(*pair.problem, *at, courses);
-  REQUIRE(floquet.compute(pair.equation.omega, pair.problem->harmonics(), courses));
-  return floquet.multipliers();
 }
 
 std::string text(int n) {
@@ -139,17 +130,12 @@ TEST_CASE("a slider behind a spring without a mass between them is one slider on
     const auto without = balanced(R"("x")", "", "x", in_series, order);
     Floquet massless(with_node.equation), simple(without.equation);
     CHECK(massless.modes() == 1);
-    const auto expected = along(without, simple);
+    const auto expected = along_harmonics::multipliers(without, simple);
     CHECK(std::abs(expected[0]) < 1);
     // The node's motion has a corner at each onset of slip.
-    errors[i] = difference(along(with_node, massless), expected);
+    errors[i] = difference(along_harmonics::multipliers(with_node, massless), expected);
     // Of the same motion, to rounding.
-    const auto at = without.problem->hbm_evaluator();
-    at->move_to(without.u, without.p, continuation::Needs::residual);
-    std::vector<ElementCourse> courses;
-    courses_of(*without.problem, *at, courses);
-    REQUIRE(massless.compute(without.equation.omega, without.problem->harmonics(), courses));
-    CHECK(difference(massless.multipliers(), expected) < 1e-13);
+    CHECK(difference(along_harmonics::multipliers(without, massless), expected) < 1e-13);
   }
   CAPTURE(errors[0], errors[1]);
   CHECK(errors[0] < 2e-2);
@@ -178,16 +164,16 @@ TEST_CASE(
     const double first = 2 * std::sin(turn / 4 / (2 * n + 1));
     const auto pair = beside_exact::balanced(chain(n, 5, 0.2 * first), 1.2 * first);
     Floquet whole(pair.equation);
-    const auto exact = along(pair, whole);
+    const auto exact = along_harmonics::multipliers(pair, whole);
     for (const double reach : {3.0, 6.0}) {
       CAPTURE(reach);
       const double harmonic = 5 * pair.equation.omega;
       Floquet reduced(pair.equation, {reach * harmonic}), finer(pair.equation, {2 * reach * harmonic});
       REQUIRE(reduced.modes() < n);
-      const auto found = along(pair, reduced);
+      const auto found = along_harmonics::multipliers(pair, reduced);
       CHECK(static_cast<int>(found.size()) <= 2 * reduced.modes() + 2);
       const double error = observables::distance(found, exact),
-                   estimate = observables::distance(found, along(pair, finer));
+                   estimate = observables::distance(found, along_harmonics::multipliers(pair, finer));
       CAPTURE(error, estimate);
       CHECK(error < 2 * estimate);
       CHECK(error < 0.1);
@@ -205,16 +191,17 @@ TEST_CASE("with another load or stiffness the multipliers are those of a structu
   };
   const auto start = pair(0.2, 0.5);
   Floquet moved(start.equation);
-  along(start, moved);
+  along_harmonics::multipliers(start, moved);
   for (const auto& [load, stiffness] : {std::pair{0.1, 0.5}, {0.1, 0.7}, {0.2, 0.5}}) {
     CAPTURE(load, stiffness);
     const auto there = pair(load, stiffness);
     Floquet fresh(there.equation);
     moved.move_to(there.equation);
-    CHECK(difference(along(there, moved), along(there, fresh)) < 1e-12);
+    CHECK(difference(along_harmonics::multipliers(there, moved), along_harmonics::multipliers(there, fresh)) <
+          1e-12);
   }
   auto massless = start.equation;
   massless.M(0, 0) = 0;
   CHECK_THROWS_AS(moved.move_to(massless), SingularMass);
-  CHECK(along(start, moved).size() > 0);
+  CHECK(along_harmonics::multipliers(start, moved).size() > 0);
 }

@@ -4,6 +4,7 @@
 
 #include "lib/elements/contacts.hpp"
 #include "lib/hbm/scenes.hpp"
+#include "lib/time/along_harmonics.hpp"
 #include "lib/time/beside_exact.hpp"
 #include "lib/time/multiplier_distance.hpp"
 #include "lib/time/systems.hpp"
@@ -29,17 +30,6 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
-
-std::vector<Complex> along_harmonics(const scene::Scene& s, double frequency) {
-  const auto pair = beside_exact::balanced(s, frequency);
-  const auto evaluator = pair.problem->hbm_evaluator();
-  evaluator->move_to(pair.u, pair.p, continuation::Needs::residual);
-  std::vector<ElementCourse> courses;
-  courses_of(*pair.problem, *evaluator, courses);
-  Floquet floquet(pair.equation);
-  REQUIRE(floquet.compute(pair.equation.omega, pair.problem->harmonics(), courses));
-  return floquet.multipliers();
-}
 
 // The same mass in x and y and one along the normal, without couplings, and the contact.
 EquationOfMotion pad(const elements::PlainLaw& law, std::vector<double> fields, const Matrix& directions,
@@ -216,8 +206,11 @@ TEST_CASE("multipliers with friction in a plane are those of Newmark's method wi
     const auto motion = observables::motion_in_time(
         pad(9), {.frequency = 95, .method = observables::TimeMethod::newmark_shooting, .steps = 16000});
     REQUIRE(motion.status == observables::Status::complete);
-    const auto fine = along_harmonics(pad(61), 95);
-    CHECK(difference(along_harmonics(pad(31), 95), fine) < 1e-5);
+    const auto along = [&](int order) {
+      return along_harmonics::multipliers(beside_exact::balanced(pad(order), 95));
+    };
+    const auto fine = along(61);
+    CHECK(difference(along(31), fine) < 1e-5);
     CHECK(difference(fine, motion.multipliers) < error);
     const double stick = motion.elements[0].stick_percent, open = motion.elements[0].open_percent;
     stuck = stuck || (stick > 5 && open > 5);
