@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <ostream>
 #include <sstream>
@@ -16,11 +15,12 @@ namespace {
 
 constexpr std::size_t most_cases = 24;  // lines of a table for people
 
+std::string number(double value, double error, const char* format) {
+  return std::isnan(value) ? "unknown" : results::with_error(value, error, format);
+}
+
 std::string number(double value, const char* format = "%.8g") {
-  if (std::isnan(value)) return "unknown";
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
+  return number(value, 0, format);
 }
 
 std::string with_unit(const scene::Scene& scene, const std::string& parameter, double value) {
@@ -30,7 +30,7 @@ std::string with_unit(const scene::Scene& scene, const std::string& parameter, d
 
 // Of an amplitude at a point, without the digits that the neglected harmonics move.
 std::string at_point(double amplitude, const observables::ResponsePoint& point) {
-  return results::with_error(amplitude, point.truncation_estimate, "%.8e") + " m";
+  return number(amplitude, point.truncation_estimate, "%.8e") + " m";
 }
 
 // Of the worst case or of their mean: the largest of all.
@@ -41,8 +41,8 @@ double estimate_of(const std::vector<LoadCaseResult>& cases) {
 }
 
 std::string frequency(const scene::Scene& scene, const observables::ResponsePoint& point) {
-  return results::with_error(studies::in_scene_unit(scene, point.omega),
-                             studies::in_scene_unit(scene, point.location_estimate), "%.8f") +
+  return number(studies::in_scene_unit(scene, point.omega),
+                studies::in_scene_unit(scene, point.location_estimate), "%.8f") +
          " " + std::string(scene::unit_name(scene.frequency_unit));
 }
 
@@ -180,7 +180,7 @@ std::string text_of(const scene::Scene& scene, const OptimumResult& result) {
   if (result.has_cases()) {
     out << "  " << name(result.problem.criterion) << " of " << found.cases.size()
         << (found.cases.size() == 1 ? " case = " : " cases = ")
-        << results::with_error(found.amplitude, estimate_of(found.cases), "%.8e") << " m\n";
+        << number(found.amplitude, estimate_of(found.cases), "%.8e") << " m\n";
     write_cases(out, scene, result);
   } else {
     out << "  A_max = " << at_point(found.amplitude, found.point) << " at "
