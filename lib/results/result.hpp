@@ -49,6 +49,7 @@ struct Shown {
   std::string otherwise{};        // a flag whose name stands where there is no value and the flag is true
   std::string error{};            // a column with its estimated error: digits that it moves are not shown
   double error_unit = 1;          // of that column, in the unit of this one
+  std::string doubtful{};  // a flag of that error, which may be too low: three digits are shown at most
 };
 
 /// The structure of all results of a study.

@@ -15,12 +15,13 @@ using Row = std::vector<std::string>;
 
 constexpr const char* no_value = "-";
 
-std::string text_of(const Value& value, const std::string& format, double error = 0) {
+std::string text_of(const Value& value, const std::string& format, double error = 0, bool doubtful = false) {
   return std::visit(
       [&](const auto& is) -> std::string {
         using Is = std::decay_t<decltype(is)>;
         if constexpr (std::is_same_v<Is, double>) {
-          return std::isfinite(is) ? with_error(is, error, format.c_str()) : no_value;
+          const double at_least = doubtful ? doubtful_error(is, error) : error;
+          return std::isfinite(is) ? with_error(is, at_least, format.c_str()) : no_value;
         } else if constexpr (std::is_same_v<Is, long>) {
           return std::to_string(is);
         } else if constexpr (std::is_same_v<Is, std::string>) {
@@ -46,16 +47,18 @@ const Value* find(const Object& object, std::span<const std::string> path) {
 /// The cells of what is shown of an object, or else of the facts of its result.
 Row cells(const std::vector<Shown>& shown, const Object& object, const Object& facts) {
   Row row;
+  const auto is_set = [&](const std::string& name) {
+    const Value* flag = name.empty() ? nullptr : find(object, {&name, 1});
+    return flag && std::holds_alternative<bool>(flag->get()) && std::get<bool>(flag->get());
+  };
   for (const Shown& each : shown) {
     const Value* value = find(object, each.path);
     if (!value) value = find(facts, each.path);
     const Value* estimate = each.error.empty() ? nullptr : find(object, {&each.error, 1});
     const auto* error = estimate ? std::get_if<double>(&estimate->get()) : nullptr;
-    row.push_back(value ? text_of(*value, each.format, error ? *error * each.error_unit : 0) : no_value);
-    if (row.back() != no_value || each.otherwise.empty()) continue;
-    const Value* flag = find(object, {&each.otherwise, 1});
-    if (flag && std::holds_alternative<bool>(flag->get()) && std::get<bool>(flag->get()))
-      row.back() = each.otherwise;
+    const double size = error ? *error * each.error_unit : 0;
+    row.push_back(value ? text_of(*value, each.format, size, is_set(each.doubtful)) : no_value);
+    if (row.back() == no_value && is_set(each.otherwise)) row.back() = each.otherwise;
   }
   return row;
 }

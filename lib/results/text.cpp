@@ -113,13 +113,19 @@ std::string with_error(double value, double error, const char* format) {
   if (std::isfinite(value) && value != 0 && std::isfinite(error) && error > 0 &&
       std::sscanf(format, "%%.%d%c", &most, &conversion) == 2) {
     const double last = std::ceil(std::log10(2 * error)), first = std::floor(std::log10(std::abs(value)));
-    const double digits = conversion == 'f' ? -last : conversion == 'e' ? first - last : first - last + 1;
-    const double least = conversion == 'g' ? 1 : 0;
-    shorter = "%." + std::to_string(std::lround(std::clamp(digits, least, 1.0 * most))) + conversion;
+    // Significant digits, less those before the first decimal.
+    const double before = conversion == 'f' ? first + 1 : conversion == 'e' ? 1 : 0;
+    const double digits = std::max(first - last + 1, 2.0) - before;
+    shorter = "%." + std::to_string(std::lround(std::clamp(digits, 0.0, 1.0 * most))) + conversion;
   }
   std::array<char, 512> text{};
   std::snprintf(text.data(), text.size(), shorter.c_str(), value);
   return text.data();
+}
+
+double doubtful_error(double value, double error) {
+  constexpr double three_digits = 5e-4;
+  return std::max(error, three_digits * std::abs(value));
 }
 
 std::string with_unit(std::string_view quantity, std::string_view unit) {

@@ -22,8 +22,12 @@ inline std::string shortest(double value) {
 }
 
 /// A number in a format of printf with a precision ("%.8e", "%.8f", "%.8g"), without the digits whose unit is
-/// less than twice its estimated error. All of them where the error is not known (NaN) or 0.
+/// less than twice its estimated error, but with two of them at least. All of them where the error is not
+/// known (NaN) or 0.
 std::string with_error(double value, double error, const char* format);
+
+/// An estimated error that may be far too low, as one that leaves three digits at most; NaN as it is.
+double doubtful_error(double value, double error);
 
 /// "damper.normal_load (N)", the title of a column or an axis, escaped by visible().
 std::string with_unit(std::string_view quantity, std::string_view unit);

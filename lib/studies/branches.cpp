@@ -62,23 +62,26 @@ std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked)
   std::vector<results::Shown> all;
   if (asked.leaving) all = {{"no.", {"id"}}, {"period", {"period"}}};
   // Of the parameter that the branch is over; on a curve of special points of their frequency.
-  const std::string location = "location_estimate";
+  const std::string location = "location_estimate", flag = "truncation_flagged";
   const bool of_frequency = asked.over.empty() || asked.maxima;
   if (!asked.over.empty())
     all.push_back({.title = results::with_unit(asked.over, parameter_unit(scene, asked.over)),
                    .path = {asked.over},
-                   .error = of_frequency ? "" : location});
+                   .error = of_frequency ? "" : location,
+                   .doubtful = of_frequency ? "" : flag});
   all.push_back({"event", {"kind"}});
   all.push_back({.title = results::with_unit("frequency", scene::unit_name(scene.frequency_unit)),
                  .path = {"frequency"},
                  .format = "%.8f",
                  .error = of_frequency ? location : "",
-                 .error_unit = in_scene_unit(scene, 1)});
+                 .error_unit = in_scene_unit(scene, 1),
+                 .doubtful = of_frequency ? flag : ""});
   all.push_back({.title = asked.mode ? "A (m)" : "A_max (m)",
                  .path = {"amplitude"},
                  .format = "%.8e",
                  .otherwise = "unbounded",
-                 .error = "truncation_estimate"});
+                 .error = "truncation_estimate",
+                 .doubtful = flag});
   if (asked.mode) all.push_back({"damping ratio", {"damping_ratio"}, "%.8f"});
   add_stick(scene, all);
   if (asked.stability) all.push_back({"stable", {"stable"}});

@@ -6,6 +6,7 @@
 #include <arcslip/results/version.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -186,8 +187,9 @@ std::string unstable_ranges(const scene::Scene& scene, const observables::Respon
   // Between the events that the range ends with, where there are any.
   const auto text_of = [&](const ResponsePoint& at) {
     const double unit = branch.over.empty() ? in_scene_unit(scene, 1) : 1;
-    return results::with_error(unit * (branch.over.empty() ? at.omega : at.over), unit * at.location_estimate,
-                               "%.8g");
+    const double value = branch.over.empty() ? at.omega : at.over, estimate = at.location_estimate;
+    const double error = at.truncation_flagged ? results::doubtful_error(value, estimate) : estimate;
+    return results::with_error(unit * value, unit * error, "%.8g");
   };
   const auto& points = branch.points;
   const auto is_unstable = [&](std::size_t i) {

@@ -126,7 +126,11 @@ Described<PointResponse> described(const scene::Scene& scene, const PointSetting
   const auto table = std::make_shared<const results::TableOf<Instant>>(history(scene));
   std::vector<results::Shown> shown{
       {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"},
-      {.title = "A_max (m)", .path = {"amplitude"}, .format = "%.8e", .error = "truncation_estimate"},
+      {.title = "A_max (m)",
+       .path = {"amplitude"},
+       .format = "%.8e",
+       .error = "truncation_estimate",
+       .doubtful = "truncation_flagged"},
       {"phase (rad)", {"phase"}, "%.6f"}};
   add_stick(scene, shown);
   if (settings.stability) shown.push_back({"stable", {"stable"}});

@@ -28,21 +28,27 @@ std::string with_unit(const scene::Scene& scene, const std::string& parameter, d
   return number(value) + (unit.empty() || unit == "-" ? "" : " " + unit);
 }
 
+double error_of(double value, double estimate, const observables::ResponsePoint& at) {
+  return at.truncation_flagged ? results::doubtful_error(value, estimate) : estimate;
+}
+
 // Of an amplitude at a point, without the digits that the neglected harmonics move.
 std::string at_point(double amplitude, const observables::ResponsePoint& point) {
-  return number(amplitude, point.truncation_estimate, "%.8e") + " m";
+  return number(amplitude, error_of(amplitude, point.truncation_estimate, point), "%.8e") + " m";
 }
 
 // Of the worst case or of their mean: the largest of all.
 double estimate_of(const std::vector<LoadCaseResult>& cases) {
   double largest = 0;
-  for (const auto& each : cases) largest = std::max(largest, each.weight * each.point.truncation_estimate);
+  for (const auto& each : cases)
+    largest =
+        std::max(largest, each.weight * error_of(each.amplitude, each.point.truncation_estimate, each.point));
   return largest;
 }
 
 std::string frequency(const scene::Scene& scene, const observables::ResponsePoint& point) {
-  return number(studies::in_scene_unit(scene, point.omega),
-                studies::in_scene_unit(scene, point.location_estimate), "%.8f") +
+  const double error = error_of(point.omega, point.location_estimate, point);
+  return number(studies::in_scene_unit(scene, point.omega), studies::in_scene_unit(scene, error), "%.8f") +
          " " + std::string(scene::unit_name(scene.frequency_unit));
 }
 

@@ -44,11 +44,20 @@ TEST_CASE("a number has the digits that its estimated error leaves, in its own u
   Results results = shown();
   results.schemas[0].shown[0].error = "error";
   results.schemas[0].shown[0].error_unit = 0.1;
+  results.schemas[0].shown[0].format = "%.6f";
   auto& table = results.schemas[0].tables[0];
   table.columns.push_back({{"error"}, Type::number});
-  results.results[0].tables[0].columns.push_back({std::vector<double>{0.3, std::nan("")}});
-  CHECK(printed(results).find("     2.5    0.1  =a, \"b\"     3  complete\n") != std::string::npos);
-  CHECK(printed(results).find("     2.5  -0.00              -  complete\n") != std::string::npos);
+  results.results[0].tables[0].columns.push_back({std::vector<double>{0.003, std::nan("")}});
+  CHECK(printed(results).find("     2.5      0.100  =a, \"b\"     3  complete\n") != std::string::npos);
+  CHECK(printed(results).find("     2.5  -0.000000              -  complete\n") != std::string::npos);
+}
+
+TEST_CASE("where the error of a number may be too low three digits are shown at most") {
+  Results results = shown();
+  results.schemas[0].shown[0] = {.title = "x (m)", .path = {"x"}, .format = "%.8f", .doubtful = "yes"};
+  std::get<std::vector<double>>(results.results[0].tables[0].columns[0].of) = {3.14159265, 3.14159265};
+  CHECK(printed(results).find("     2.5        3.14  =a, ") != std::string::npos);
+  CHECK(printed(results).find("     2.5  3.14159265 ") != std::string::npos);
 }
 
 TEST_CASE("a result without rows has one that says so, and results of one kind share a table") {

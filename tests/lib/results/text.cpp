@@ -4,6 +4,7 @@
 
 #include "catch.hpp"
 
+using arcslip::results::doubtful_error;
 using arcslip::results::visible;
 using arcslip::results::visible_lines, arcslip::results::with_error;
 
@@ -42,11 +43,17 @@ TEST_CASE("digits below twice an estimated error are not printed") {
   CHECK(with_error(3.36660710e-3, 4e-8, "%.8e") == "3.3666e-03");
   CHECK(with_error(3.36660710e-3, 6e-8, "%.8e") == "3.367e-03");
   CHECK(with_error(3.36660710e-3, 1e-20, "%.8e") == "3.36660710e-03");
-  CHECK(with_error(3.36660710e-3, 1, "%.8e") == "3e-03");
+  CHECK(with_error(3.36660710e-3, 1, "%.8e") == "3.4e-03");
   CHECK(with_error(-31.89251693, 4e-4, "%.8f") == "-31.893");
   CHECK(with_error(31.89251693, 100, "%.8f") == "32");
   CHECK(with_error(24.533048, 4e-4, "%.8g") == "24.533");
-  CHECK(with_error(24.533048, 60, "%.8g") == "2e+01");
+  CHECK(with_error(24.533048, 60, "%.8g") == "25");
+  CHECK(with_error(0.678036, 8.8e-3, "%.8f") == "0.68");
   CHECK(with_error(0, 1e-3, "%.8f") == "0.00000000");
   CHECK(with_error(HUGE_VAL, 1e-3, "%.2f") == "inf");
+  // Three of an error that may be too low, but not of one that is not known.
+  CHECK(with_error(20.0292721, doubtful_error(20.0292721, std::nan("")), "%.8f") == "20.02927210");
+  CHECK(with_error(8.8419106e-4, doubtful_error(8.8419106e-4, 0), "%.8e") == "8.84e-04");
+  CHECK(with_error(-9.9, doubtful_error(-9.9, 1e-9), "%.8f") == "-9.90");
+  CHECK(with_error(20.0292721, doubtful_error(20.0292721, 0.3), "%.8f") == "20");
 }
