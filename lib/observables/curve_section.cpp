@@ -61,15 +61,16 @@ bool CurveSection::linearize() {
   return true;
 }
 
-ResponsePoint CurveSection::observe(In x, In p, HeldBy held) {
+ResponsePoint CurveSection::observe(In x, In p, HeldBy held, bool maxima) {
   move_to(x, p, Needs::jacobian);
   linearize();
   continuation::Scratch none;
-  return observer_.observe({u_, p_, tangent_, 0, *evaluator_, *solver_, p_[model::frequency], none}, held);
+  return observer_.observe({u_, p_, tangent_, 0, *evaluator_, *solver_, p_[model::frequency], none}, held,
+                           maxima);
 }
 
 ResponsePoint CurveSection::observe(const Accepted& now, HeldBy held) {
-  ResponsePoint point = observe(now.u, now.p, held);
+  ResponsePoint point = observe(now.u, now.p, held, held != HeldBy::parameter);
   point.over = now.parameter;
   return point;
 }

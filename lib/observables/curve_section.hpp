@@ -25,8 +25,10 @@ class CurveSection {
   /// branch has no tangent.
   ResponsePoint observe(const continuation::Accepted& now, HeldBy held = HeldBy::extremum);
 
-  /// The same at a solution x = (u, omega) with all parameters p.
-  ResponsePoint observe(continuation::In x, continuation::In p, HeldBy held = HeldBy::extremum);
+  /// The same at a solution x = (u, omega) with all parameters p, and with the maxima.
+  ResponsePoint observe(continuation::In x, continuation::In p, HeldBy held = HeldBy::extremum) {
+    return observe(x, p, held, true);
+  }
 
   /// The multipliers at a point of the curve; null: not watched, or not known there.
   const StabilityAnalysis* stability(const continuation::Accepted& now);
@@ -38,6 +40,7 @@ class CurveSection {
   double last_amplitude() const { return observer_.last_amplitude(); }
 
  private:
+  ResponsePoint observe(continuation::In x, continuation::In p, HeldBy held, bool maxima);
   bool move_to(continuation::In x, continuation::In p, continuation::Needs needs);
   bool linearize();
 

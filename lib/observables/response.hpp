@@ -103,6 +103,7 @@ struct Stability {
   int kept = 0;                                   // how many of them results have; 0: all
   int unstable = 0;                               // outside the unit circle
   double error = no_value;     // estimated effect of the neglected harmonics; no_value: not known
+  bool estimated = true;       // whether that was asked for here; else it comes from the points beside
   double rotation = no_value;  // at a Neimark-Sacker point: argument of the pair over 2 pi
 };
 
@@ -125,6 +126,7 @@ struct ResponsePoint {
   double rms = no_value;                // root of the mean of x^2 over the period, m
   double phase = 0;                     // rad, lag of the response's fundamental behind the force's
   double truncation_estimate = 0;       // m, estimated effect of the neglected harmonics on the amplitude
+  double truncation_change = no_value;  // m, the same with its sign, which may cancel; no_value: not known
   bool truncation_flagged = false;      // the estimate may be too low (truncation.hpp, stops.hpp)
   double location_estimate = no_value;  // of an event: the same effect on omega or over; no_value: not known
   std::string stops;           // an element whose motion stops where it reverses (stops.hpp); empty: none

@@ -298,7 +298,22 @@ void set_apart(const std::string& kind, ResponsePoint& point) {
     stability.unstable = count_unstable(without(stability.multipliers, own));
 }
 
-void estimate_bifurcations(ResponseBranch& branch) {
+namespace {
+
+// The last estimate before each point, or that beyond it where `points` go backwards.
+void share_errors(auto begin, auto end) {
+  double last = no_value;
+  for (auto point = begin; point != end; ++point) {
+    if (!point->stability) continue;
+    double& error = point->stability->error;
+    if (!point->stability->estimated)
+      error = std::isnan(error) || last > error ? last : error;
+    else if (!std::isnan(error))
+      last = error;
+  }
+}
+
+void estimate_places(ResponseBranch& branch) {
   const auto place = [&](const ResponsePoint& point) {
     return branch.over.empty() ? point.omega : point.over;
   };
@@ -320,6 +335,22 @@ void estimate_bifurcations(ResponseBranch& branch) {
     const double estimate = event.point.stability->error * std::abs((place(beyond) - place(before)) / change);
     if (std::isfinite(estimate)) event.point.location_estimate = estimate;
   }
+}
+
+}  // namespace
+
+void complete_stability(ResponseBranch& branch) {
+  auto& points = branch.points;
+  share_errors(points.begin(), points.end());
+  share_errors(points.rbegin(), points.rend());
+  for (ResponseEvent& event : branch.events) {
+    if (event.point.stability && !event.point.stability->estimated)
+      for (std::size_t i = event.after; i < std::min(event.after + 2, points.size()); ++i)
+        if (points[i].stability)
+          event.point.stability->error = std::fmax(event.point.stability->error, points[i].stability->error);
+    set_apart(event.kind, event.point);
+  }
+  estimate_places(branch);
 }
 
 }  // namespace arcslip::observables

@@ -178,7 +178,7 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   const Eigen::Index n = problem_.size();
   exact_ = false;
   change_.u.resize(0);
-  if (!wide_.move_to(now.u, now.p)) return {0, true};
+  if (!wide_.move_to(now.u, now.p)) return {.flagged = true};
   residual_ = wide_.at().residual();
   double force = 0;
   for (std::size_t e = 0; e < wide_.at().element_count(); ++e)
@@ -210,12 +210,14 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
                                                extreme.place);
     response_ += change_.parameter * by_parameter_;
   }
-  const double change = std::abs(amplitude_change(wide_.problem().harmonics(), extreme, response_));
+  const double change = amplitude_change(wide_.problem().harmonics(), extreme, response_);
   const double size = response_.norm();
-  if (!std::isfinite(change)) return {0, true};
-  const bool cancels = change < cancelled * size && size > tolerance * extreme.amplitude;
-  return {cancels ? uncancelled * size : change, flagged || size > small_change * extreme.amplitude,
-          std::isfinite(location) ? location : no_value};
+  if (!std::isfinite(change)) return {.flagged = true};
+  const bool cancels = std::abs(change) < cancelled * size && size > tolerance * extreme.amplitude;
+  return {.amplitude = cancels ? uncancelled * size : std::abs(change),
+          .change = change,
+          .flagged = flagged || size > small_change * extreme.amplitude,
+          .location = std::isfinite(location) ? location : no_value};
 }
 
 std::optional<Truncation::Refined> Truncation::refined(const continuation::Accepted& now, Reach reach) {

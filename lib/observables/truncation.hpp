@@ -34,6 +34,7 @@ namespace arcslip::observables {
 
 struct TruncationEstimate {
   double amplitude = 0;  // m
+  double change = 0;     // dA, m, with its sign
   bool flagged = false;
   double location = no_value;  // of an event, in units of q; no_value: not known
 };
