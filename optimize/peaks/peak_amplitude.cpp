@@ -43,6 +43,11 @@ const char* name(PeakKind kind) {
   return "";
 }
 
+observables::HeldBy held_by(PeakKind kind) {
+  if (kind == PeakKind::resonance) return observables::HeldBy::extremum;
+  return is_end(kind) ? observables::HeldBy::parameter : observables::HeldBy::corner;
+}
+
 double PeakState::amplitude() const {
   if (unbounded) return std::numeric_limits<double>::infinity();
   return peaks.empty() ? std::numeric_limits<double>::quiet_NaN() : peaks[highest].amplitude;
@@ -273,7 +278,8 @@ observables::ResponsePoint PeakAmplitude::observe(
     const PeakState& state, const std::shared_ptr<const hbm::HbmProblem>& problem) const {
   Vector p = continuation::parameter_values(*problem);
   for (std::size_t k = 0; k < over_.size(); ++k) p[over_[k]] = state.design[k];
-  return observables::CurveSection(problem, over_.front()).observe(state.peaks[state.highest].x, p);
+  const Peak& peak = state.peaks[state.highest];
+  return observables::CurveSection(problem, over_.front()).observe(peak.x, p, held_by(peak.kind));
 }
 
 }  // namespace arcslip::optimize

@@ -41,6 +41,10 @@ enum class PeakKind { resonance, corner, lower_end, upper_end, kink };
 /// "resonance" and so on.
 const char* name(PeakKind kind);
 
+/// The condition of such a peak. Of a kink that of a corner, which the truncation estimate flags where it is
+/// none.
+observables::HeldBy held_by(PeakKind kind);
+
 struct Peak {
   PeakKind kind = PeakKind::resonance;
   continuation::Vector x;               // unknowns and omega (rad/s)
@@ -122,7 +126,7 @@ class PeakAmplitude {
   const observables::FrequencyWindow& window() const { return window_; }
 
   /// All observables at a peak of the state.
-  observables::ResponsePoint observe(const Peak& peak) { return observe(peak.x, state_.design); }
+  observables::ResponsePoint observe(const Peak& peak) { return observe(peak.x, peak.kind, state_.design); }
 
   /// All observables at the highest peak of an earlier state, with its problem.
   observables::ResponsePoint observe(const PeakState& state,
@@ -151,7 +155,8 @@ class PeakAmplitude {
   continuation::Vector parameters(std::span<const double> design) const;
 
  private:
-  observables::ResponsePoint observe(const continuation::Vector& x, std::span<const double> design);
+  observables::ResponsePoint observe(const continuation::Vector& x, PeakKind kind,
+                                     std::span<const double> design);
   PeakState response(std::span<const double> design, observables::Steps steps);
   void classify(Peak& peak);
   bool measure(Peak& peak, std::span<const double> design);

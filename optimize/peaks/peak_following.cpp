@@ -165,8 +165,9 @@ bool PeakAmplitude::follow(std::size_t peak, std::span<const double> to, Peak& f
   return measure(followed, to);
 }
 
-observables::ResponsePoint PeakAmplitude::observe(const Vector& x, std::span<const double> design) {
-  return section_->observe(x, parameters(design));
+observables::ResponsePoint PeakAmplitude::observe(const Vector& x, PeakKind kind,
+                                                  std::span<const double> design) {
+  return section_->observe(x, parameters(design), held_by(kind));
 }
 
 continuation::Matrix PeakAmplitude::tangents(std::size_t peak) {
@@ -203,7 +204,7 @@ double PeakAmplitude::change(std::size_t peak, std::size_t k, const Observable& 
   for (const int side : {0, 1}) {
     const Vector x = of.x + (side == 0 ? -h : h) * along.col(static_cast<Eigen::Index>(k));
     design[k] = state_.design[k] + (side == 0 ? -h : h);
-    value[side] = observable(observe(x, design));
+    value[side] = observable(observe(x, of.kind, design));
   }
   return (value[1] - value[0]) / (2 * h);
 }

@@ -2,6 +2,7 @@
 
 #include <arcslip/continuation/diagrams/deflation.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/optimize/search/design_estimate.hpp>
 #include <arcslip/optimize/search/design_space.hpp>
 #include <arcslip/optimize/search/multipliers.hpp>
 
@@ -41,19 +42,20 @@ class Certifier {
     stationarity();
     for (std::size_t c = 0; c < cases_.size() && more(); ++c) other_branches(c);
     if (more()) curvature();
+    if (more()) move_by_harmonics();
     for (std::size_t k = 0; k < design_.size() && more(); ++k) ranges(k);
     return std::move(result_);
   }
 
  private:
   void stationarity() {
-    Balance found = balance(cases_, lower_, upper_, std::move(result_.limits));
+    balance_ = balance(cases_, lower_, upper_, std::move(result_.limits));
+    const Balance& found = balance_;
     result_.gradient.assign(gradient_.begin(), gradient_.end());
     result_.stationarity = found.stationarity;
     result_.complementarity = found.complementarity;
     result_.at_bound = found.at_bound;
-    result_.limits = std::move(found.limits);
-    smooth_ = found.smooth;
+    result_.limits = found.limits;
     auto active = found.active.begin();
     for (std::size_t c = 0; c < optimum_.size(); ++c)
       for (std::size_t i = 0; i < optimum_[c].peaks.size(); ++i) {
@@ -67,7 +69,7 @@ class Certifier {
   }
 
   void curvature() {
-    if (!smooth_) return;
+    if (!balance_.smooth) return;
     const auto n = static_cast<Eigen::Index>(design_.size());
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
     for (std::size_t g = 0; g < cases_.groups(); ++g) {
@@ -83,6 +85,12 @@ class Certifier {
     if (!inside || !result_.limits.empty() || !cholesky.factorize(result_.curvature)) return;
     const Vector step = -cholesky.solve(gradient_);
     result_.to_minimum.assign(step.begin(), step.end());
+  }
+
+  void move_by_harmonics() {
+    DesignEstimate estimate = design_estimate(cases_, balance_);
+    result_.design_estimate = std::move(estimate.change);
+    result_.design_flagged = estimate.flagged;
   }
 
   enum class End { level, limit, bound };
@@ -227,7 +235,7 @@ class Certifier {
   const Vector gradient_;
   std::vector<PeakState> optimum_;  // of each case
   std::vector<double> levels_;      // of each group
-  bool smooth_ = false;
+  Balance balance_;
   Certificate result_;
 };
 

@@ -64,6 +64,9 @@ struct Certificate {
                                // active: by as much ln V may be above its minimum; at most
                                // most_complementarity where the search is complete
   std::vector<double>
+      design_estimate;          // how far the harmonics left out may move each parameter; empty: not known
+  bool design_flagged = false;  // that may be too low
+  std::vector<double>
       to_minimum;  // Newton step from the optimum to the zero of the gradient; empty if kinked or limited
   Eigen::MatrixXd curvature;  // d2V/dp_j dp_k; empty where several peaks of a case are active (worst: of all
                               // cases), or at a kink

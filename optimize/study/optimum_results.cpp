@@ -129,6 +129,10 @@ Object certificate(const scene::Scene& scene, const OptimumProblem& problem, con
   Object all{{"gradient", std::move(slopes)},
              {"stationarity", c.stationarity},
              {"complementarity", c.complementarity}};
+  if (!c.design_estimate.empty()) {
+    all.push_back({"design_estimate", named(scene, problem, c.design_estimate)});
+    all.push_back({"design_flagged", c.design_flagged});
+  }
   if (!c.to_minimum.empty()) all.push_back({"to_minimum", named(scene, problem, c.to_minimum)});
   if (c.curvature.size() > 0) {
     Value::List rows;

@@ -23,9 +23,10 @@ std::string number(double value, const char* format = "%.8g") {
   return number(value, 0, format);
 }
 
-std::string with_unit(const scene::Scene& scene, const std::string& parameter, double value) {
+std::string with_unit(const scene::Scene& scene, const std::string& parameter, double value,
+                      double error = 0) {
   const std::string unit = studies::parameter_unit(scene, parameter);
-  return number(value) + (unit.empty() || unit == "-" ? "" : " " + unit);
+  return number(value, error, "%.8g") + (unit.empty() || unit == "-" ? "" : " " + unit);
 }
 
 double error_of(double value, double estimate, const observables::ResponsePoint& at) {
@@ -35,6 +36,13 @@ double error_of(double value, double estimate, const observables::ResponsePoint&
 // Of an amplitude at a point, without the digits that the neglected harmonics move.
 std::string at_point(double amplitude, const observables::ResponsePoint& point) {
   return number(amplitude, error_of(amplitude, point.truncation_estimate, point), "%.8e") + " m";
+}
+
+// Of a parameter at the optimum.
+double design_error(const Optimum& found, std::size_t k) {
+  if (!found.certificate || found.certificate->design_estimate.empty()) return 0;
+  const double estimate = found.certificate->design_estimate[k];
+  return found.certificate->design_flagged ? results::doubtful_error(found.design[k], estimate) : estimate;
 }
 
 // Of the worst case or of their mean: the largest of all.
@@ -182,7 +190,7 @@ std::string text_of(const scene::Scene& scene, const OptimumResult& result) {
   }
   for (std::size_t k = 0; k < found.design.size(); ++k)
     out << "  " << result.problem.over[k].name << " = "
-        << with_unit(scene, result.problem.over[k].name, found.design[k]) << '\n';
+        << with_unit(scene, result.problem.over[k].name, found.design[k], design_error(found, k)) << '\n';
   if (result.has_cases()) {
     out << "  " << name(result.problem.criterion) << " of " << found.cases.size()
         << (found.cases.size() == 1 ? " case = " : " cases = ")
