@@ -136,12 +136,15 @@ const char* cut_by(bool bound, bool limit) {
 void write_certificate(std::ostream& out, const scene::Scene& scene, const OptimumResult& result) {
   const Certificate& certificate = *result.optimum.certificate;
   const auto& over = result.problem.over;
-  for (std::size_t k = 0; k < certificate.ranges.size(); ++k)
+  for (std::size_t k = 0; k < certificate.ranges.size(); ++k) {
+    const double error = design_error(result.optimum, k);  // about that of the ends
     for (const ToleranceRange& range : certificate.ranges[k])
       out << "  within " << number(100 * range.share, "%.0f") << " % for " << over[k].name << " from "
-          << with_unit(scene, over[k].name, range.lower) << cut_by(range.lower_is_bound, range.lower_is_limit)
-          << " to " << with_unit(scene, over[k].name, range.upper)
+          << with_unit(scene, over[k].name, range.lower, range.lower_is_bound ? 0 : error)
+          << cut_by(range.lower_is_bound, range.lower_is_limit) << " to "
+          << with_unit(scene, over[k].name, range.upper, range.upper_is_bound ? 0 : error)
           << cut_by(range.upper_is_bound, range.upper_is_limit) << '\n';
+  }
   for (std::size_t k = 0; k < certificate.at_bound.size(); ++k)
     if (certificate.at_bound[k] != 0)
       out << "  " << over[k].name << " is at its " << (certificate.at_bound[k] < 0 ? "lower" : "upper")
@@ -208,7 +211,7 @@ std::string text_of(const scene::Scene& scene, const OptimumResult& result) {
   if (found.certificate) write_certificate(out, scene, result);
   if (result.direct.found)
     out << "  the curve of peaks has its minimum at " << result.problem.over[0].name << " = "
-        << with_unit(scene, result.problem.over[0].name, result.direct.point.over)
+        << with_unit(scene, result.problem.over[0].name, result.direct.point.over, design_error(found, 0))
         << ": relative differences " << number(result.difference_of_design(), "%.1e") << " and "
         << number(result.difference_of_amplitude(), "%.1e") << " in amplitude\n";
   else if (!result.direct.message.empty())
