@@ -4,6 +4,7 @@
 
 #include "lib/hbm/reaching.hpp"
 
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/truncation.hpp>
 
@@ -248,7 +249,7 @@ TEST_CASE(
         for (int n = 0; n <= 3; ++n) {
           CAPTURE(sectors, order, w, n);
           const Eigen::MatrixXcd Z = at.dynamic_stiffness(n, p);
-          const Eigen::VectorXcd X = Z.partialPivLu().solve(at.force(n, p));
+          const Eigen::VectorXcd X = continuation::solve_complex(Z, at.force(n, p));
           CHECK(std::abs(amplitude(h, x, n) - X[2]) < 1e-11 * X.norm());
           loss += pi * n * X.dot(Z * X).imag();
           size += Z.norm() * X.squaredNorm();

@@ -3,12 +3,10 @@
 
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/time_study.hpp>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include <cmath>
 #include <complex>
@@ -68,7 +66,7 @@ TEST_CASE("proportional damping has the response of the dense complex equation")
   for (const double w : {0.3, 1.1, 2.7}) {
     CAPTURE(w);
     const auto expected = [&](const Eigen::MatrixXcd& Z) {
-      return Complex(response.dot(Z.partialPivLu().solve(f)));
+      return Complex(response.dot(continuation::solve_complex(Z, f).col(0)));
     };
     s.damping = {damping(scene::rayleigh_type(), {0.07, 0.02})};
     const Complex rayleigh =
@@ -86,17 +84,16 @@ TEST_CASE("modal damping gives each mode its ratio") {
   const model::Model model = model::build(s);
   const Vector p = model::defaults(model);
   const Eigen::MatrixXd M = model::mass_matrix(model, p), K = model::stiffness_matrix(model, p);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(K, M);
-  const Eigen::MatrixXd C =
-      modes.eigenvectors().transpose() * model::damping_matrix(model, p) * modes.eigenvectors();
-  const Eigen::VectorXd w = modes.eigenvalues().cwiseSqrt();
+  const auto modes = continuation::symmetric_modes(K, M);
+  const Eigen::MatrixXd C = modes.V.transpose() * model::damping_matrix(model, p) * modes.V;
+  const Eigen::VectorXd w = modes.values.cwiseSqrt();
   CHECK((C - Eigen::MatrixXd((0.06 * w).asDiagonal())).cwiseAbs().maxCoeff() < 1e-12 * w.maxCoeff());
   // In the response, and as a parameter.
   const auto [M1, K1, f, response] = matrices(s);
   scene::set(s, "steel.ratio", 0.01);
   Complex sum = 0;
   for (Eigen::Index j = 0; j < w.size(); ++j) {
-    const Eigen::VectorXd v = modes.eigenvectors().col(j);
+    const Eigen::VectorXd v = modes.V.col(j);
     sum += response.dot(v) * v.cast<Complex>().dot(f) / Complex(w[j] * w[j] - 1.21, 0.02 * w[j] * 1.1);
   }
   CHECK(std::abs(amplitude(s, 1.1) - sum) < 1e-12 * std::abs(sum));

@@ -5,10 +5,9 @@
 
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/observables/prepare.hpp>
-
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <numbers>
@@ -53,9 +52,9 @@ std::string fault(const std::string& structure) {
 Eigen::VectorXd natural_frequencies(const std::string& structure) {
   const model::Model model = model::build(read(scene_of(structure, "p")));
   const auto p = model::defaults(model);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(model::stiffness_matrix(model, p),
-                                                                        model::mass_matrix(model, p));
-  return modes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  return continuation::symmetric_eigenvalues(model::stiffness_matrix(model, p), model::mass_matrix(model, p))
+      .cwiseMax(0.0)
+      .cwiseSqrt();
 }
 
 // (k L)^2 of the lowest modes.

@@ -4,7 +4,7 @@
 #include "lib/observables/reference.hpp"
 #include "lib/time/newmark_systems.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 
 #include <algorithm>
 #include <complex>
@@ -61,7 +61,7 @@ TEST_CASE("Floquet multipliers of the discrete map come to those of the motion, 
     Newmark newmark(equation, steps);
     const MotionState start = newmark_periods(newmark, at_rest(equation), 200, false, true).end;
     const PeriodMap map = newmark_map(newmark, start);
-    const Eigen::VectorXcd values = Eigen::EigenSolver<Matrix>(map.monodromy).eigenvalues();
+    const Eigen::VectorXcd values = arcslip::continuation::eigenvalues(map.monodromy);
     std::vector<double> sizes;
     for (const auto& value : values) sizes.push_back(std::abs(value));
     std::sort(sizes.begin(), sizes.end());

@@ -9,6 +9,7 @@
 #include "lib/time/multiplier_distance.hpp"
 #include "lib/time/systems.hpp"
 
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/contact_3d.hpp>
 #include <arcslip/observables/time_study.hpp>
@@ -16,8 +17,6 @@
 #include <arcslip/time/floquet.hpp>
 
 #include <unsupported/Eigen/MatrixFunctions>
-
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <numbers>
@@ -80,7 +79,7 @@ TEST_CASE("slip along a circle has constant coefficients in a frame that turns w
     A.block<1, 2>(4, 0) = -g * t + n;
     A(4, 4) = -g;
     std::vector<Complex> exact;
-    const Eigen::VectorXcd rates = A.eigenvalues();
+    const Eigen::VectorXcd rates = continuation::eigenvalues(A);
     for (const Complex& rate : rates) exact.push_back(std::exp(2 * pi * rate));
     // Along the normal, and the part of the slider that follows.
     const double decay = std::exp(-pi * c), turns = std::sqrt(1.6 * k - c * c / 4);
