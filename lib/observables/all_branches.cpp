@@ -271,6 +271,7 @@ class AllBranches {
         run.course.events.emplace_back(event->point.arclength,
                                        ResponseEvent{event->monitor, event->nonsmooth, event->located,
                                                      run.observer->observe(now, held_by(*event), true), 0});
+        set_apart(event->monitor, run.course.events.back().second.point);
         return true;
       }
       run.course.points.emplace_back(now.arclength, run.observer->observe(now));
@@ -304,7 +305,7 @@ class AllBranches {
     ResponseBranch& response = run.known.response;
     run.course.move_to(response);
     finish(run, from, response);
-    complete_stability(response);
+    estimate_bifurcations(response);
     response.unknown_stability = run.observer->unknown_stability();
     const auto& points = response.points;
     if (!points.empty()) {

@@ -195,7 +195,7 @@ std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Obse
     monitors[1].divides_at_kinks = monitors[0].divides_at_kinks;
   }
   if (watched.stability) {
-    observer->watch_stability_of_branch(watched.stability);
+    observer->watch_stability(watched.stability);
     for (auto& monitor : stability_monitors(observer)) monitors.push_back(std::move(monitor));
   }
   if (watched.branch_points) monitors.push_back(continuation::branch_point_monitor());

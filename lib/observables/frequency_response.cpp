@@ -104,7 +104,7 @@ class Sweep {
     result.unknown_stability = traced.unknown_stability;
     result.solver.unknowns = traced.problem->size();
     finish(traced, from, course);
-    complete_stability(result);
+    estimate_bifurcations(result);
     result.solver.seconds = seconds_since(began);
     return {std::move(result), traced.problem, std::move(traced.branch.events)};
   }
@@ -123,6 +123,7 @@ class Sweep {
       if (event) {
         result.events.push_back({event->monitor, event->nonsmooth, event->located,
                                  observer.observe(now, held_by(*event), true), event->after});
+        set_apart(event->monitor, result.events.back().point);
         return true;
       }
       const double omega = now.p[model::frequency];
@@ -157,7 +158,7 @@ class Sweep {
         [this] { return go_on(); }, watched_);
     const auto& stop = traced.branch.stop;
     if (stop.reason != StopReason::boundary || stop.value != to) return {};
-    complete_stability(course.result);
+    estimate_bifurcations(course.result);
     course.result.unknown_stability = traced.unknown_stability;
     course.result.solver.unknowns = problem->size();
     add(traced.branch.counts, course.result.solver);

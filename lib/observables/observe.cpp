@@ -112,23 +112,18 @@ const StabilityAnalysis* Observer::stability(const continuation::Accepted& now) 
   return stability_known_ ? &*stability_ : nullptr;
 }
 
-void Observer::add_stability(const continuation::Accepted& now, bool is_event, ResponsePoint& point) {
+void Observer::add_stability(const continuation::Accepted& now, ResponsePoint& point) {
   const StabilityAnalysis* found = stability(now);
   if (!found) return;
   Stability& stability = point.stability.emplace();
   stability.multipliers = found->multipliers();
   stability.kept = kept_multipliers_;
   stability.unstable = count_unstable(stability.multipliers);
-  const bool wanted = !sampled_ || (!is_event && sampled_->wants(stability.multipliers, now.arclength));
-  stability.estimated = wanted || truncation_->is_exact();
-  if (!stability.estimated) return;
-  stability.error = multiplier_error(now, stability.multipliers);
-  if (sampled_ && !is_event) sampled_->take(truncation_->is_exact() ? 0 : stability.error);
-}
-
-double Observer::multiplier_error(const continuation::Accepted& now, const Multipliers& multipliers) {
   const double modal_error = stability_->modal_error();
-  if (truncation_->is_exact()) return modal_error;
+  if (truncation_->is_exact()) {
+    stability.error = modal_error;
+    return;
+  }
   stable_u_.resize(0);
   const auto refined = [&](Truncation::Reach reach) -> const Multipliers* {
     const auto motion = truncation_->refined(now, reach);
@@ -138,11 +133,11 @@ double Observer::multiplier_error(const continuation::Accepted& now, const Multi
     return known ? &stability_->multipliers() : nullptr;
   };
   const Multipliers* all = refined(Truncation::Reach::all);
-  if (!all) return no_value;
+  if (!all) return;
   const Multipliers by_all = *all;
-  const double first = modal_error + distance(multipliers, by_all);
-  const Multipliers* by_half = refined(Truncation::Reach::half);
-  return by_half ? first + distance(by_all, *by_half) : first;
+  stability.error = modal_error + distance(stability.multipliers, by_all);
+  if (const Multipliers* by_half = refined(Truncation::Reach::half))
+    stability.error += distance(by_all, *by_half);
 }
 
 ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, bool maxima) {
@@ -156,7 +151,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
   point.truncation_change = truncation.change;
   point.location_estimate = truncation.location;
   point.truncation_flagged = truncation.flagged || !point.stops.empty();
-  if (stability_) add_stability(now, maxima, point);
+  if (stability_) add_stability(now, point);
   point.energy_input = input_energy(*problem_, at, now.u);
   point.forces = force_components(*problem_, at, x_);
   if (maxima) {

@@ -6,7 +6,6 @@
 #include <arcslip/observables/amplitude.hpp>
 #include <arcslip/observables/force_components.hpp>
 #include <arcslip/observables/response.hpp>
-#include <arcslip/observables/sampled_errors.hpp>
 #include <arcslip/observables/stability.hpp>
 #include <arcslip/observables/stability_request.hpp>
 #include <arcslip/observables/stops.hpp>
@@ -40,12 +39,6 @@ class Observer {
     stability_.emplace(request.by_hill);
     kept_multipliers_ = request.multipliers;
   }
-  /// The same along a branch, whose points and events have an error of their multipliers only where it is
-  /// estimated (sampled_errors.hpp), until complete_stability().
-  void watch_stability_of_branch(const StabilityRequest& request = true) {
-    watch_stability(request);
-    sampled_.emplace();
-  }
   /// The multipliers at a point; null: not watched, or not known there.
   const StabilityAnalysis* stability(const continuation::Accepted& now);
   /// Why none of the points has any (StabilityAnalysis::unknown()).
@@ -75,8 +68,7 @@ class Observer {
   double phase(continuation::In p, continuation::In x) const;
   void add_named_responses(const hbm::HbmEvaluator& at, continuation::In u, continuation::In p,
                            ResponsePoint& point);
-  void add_stability(const continuation::Accepted& now, bool is_event, ResponsePoint& point);
-  double multiplier_error(const continuation::Accepted& now, const Multipliers& multipliers);
+  void add_stability(const continuation::Accepted& now, ResponsePoint& point);
 
   std::shared_ptr<const hbm::HbmProblem> problem_;
   int free_;
@@ -90,7 +82,6 @@ class Observer {
   continuation::Vector stable_u_, stable_p_;  // the place of its last call
   bool stability_known_ = false;
   int kept_multipliers_ = 0;
-  std::optional<SampledErrors> sampled_;
   continuation::Vector x_, dx_, by_parameter_;
   Extreme last_;
 };

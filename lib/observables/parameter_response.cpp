@@ -144,7 +144,7 @@ class Traces {
         extreme_monitor(event_kinds::maximum, Crossing::falling, observer),
         extreme_monitor(event_kinds::minimum, Crossing::rising, observer), continuation::fold_monitor()};
     if (stability_) {
-      observer->watch_stability_of_branch(stability_);
+      observer->watch_stability(stability_);
       for (auto& monitor : stability_monitors(observer)) monitors.push_back(std::move(monitor));
     }
     std::vector<std::pair<double, double>> course;  // arclength, amplitude
@@ -157,6 +157,7 @@ class Traces {
         at.push_back(now.arclength);
         result.events.push_back(
             {event->monitor, event->nonsmooth, event->located, std::move(point), event->after});
+        set_apart(event->monitor, result.events.back().point);
         return true;
       }
       course.emplace_back(now.arclength, point.amplitude);
@@ -172,7 +173,7 @@ class Traces {
         continuation::trace(problem, {u, p, way_.index, direction}, options, std::move(monitors), record);
     result.unknown_stability = observer->unknown_stability();
     drop_extrema_of_rounding(course, at, result);
-    complete_stability(result);
+    estimate_bifurcations(result);
     result.solver.unknowns = problem->size();
     add(branch.counts, result.solver);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

@@ -280,10 +280,8 @@ constexpr Quantity<Stability> of_stability[] = {
      "sliders that stick throughout",
      multipliers},
     {"multiplier_error", "",
-     "estimated effect of the neglected harmonics, and of natural modes left out, on a multiplier; of "
-     "points of a branch between those where it was computed, that of the points beside; null where it is "
-     "not "
-     "known",
+     "estimated effect of the neglected harmonics, and of natural modes left out, on a multiplier; null "
+     "where it is not known",
      [](const Stability& stability) { return stability.error; }},
     {"rotation_number", "", "at Neimark-Sacker points: argument of the multipliers on the circle over 2 pi",
      [](const Stability& stability) { return stability.rotation; },

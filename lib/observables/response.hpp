@@ -103,7 +103,6 @@ struct Stability {
   int kept = 0;                                   // how many of them results have; 0: all
   int unstable = 0;                               // outside the unit circle
   double error = no_value;     // estimated effect of the neglected harmonics; no_value: not known
-  bool estimated = true;       // whether that was asked for here; else it comes from the points beside
   double rotation = no_value;  // at a Neimark-Sacker point: argument of the pair over 2 pi
 };
 

@@ -20,6 +20,7 @@ constexpr int most_dofs = 100;
 constexpr int modes_kept = 50;           // of more
 constexpr double rounding = 1e-11;       // of functions of multipliers, where the structure is undamped
 constexpr double on_circle = 1e-4;       // at a zero; otherwise the multipliers jump
+constexpr double beyond_estimate = 5;    // an error of a multiplier, over its estimate
 constexpr double jump = 1e-5;            // of the largest modulus across 1
 constexpr double steep_share = 0.5;      // of a change, not made by the slope beside it: more is a jump
 constexpr std::size_t most_kept = 1000;  // places
@@ -290,7 +291,7 @@ void set_apart(const std::string& kind, ResponsePoint& point) {
              kind == event_kinds::symmetry_breaking) {
     own = {1.0};
   }
-  const double apart = std::isnan(stability.error) ? on_circle : std::max(on_circle, stability.error);
+  const double apart = std::fmax(on_circle, beyond_estimate * stability.error);
   const auto near = [&](const Complex& value) {
     return std::abs(nearest_two(stability.multipliers, value)[0] - value) < apart;
   };
@@ -298,22 +299,7 @@ void set_apart(const std::string& kind, ResponsePoint& point) {
     stability.unstable = count_unstable(without(stability.multipliers, own));
 }
 
-namespace {
-
-// The last estimate before each point, or that beyond it where `points` go backwards.
-void share_errors(auto begin, auto end) {
-  double last = no_value;
-  for (auto point = begin; point != end; ++point) {
-    if (!point->stability) continue;
-    double& error = point->stability->error;
-    if (!point->stability->estimated)
-      error = std::isnan(error) || last > error ? last : error;
-    else if (!std::isnan(error))
-      last = error;
-  }
-}
-
-void estimate_places(ResponseBranch& branch) {
+void estimate_bifurcations(ResponseBranch& branch) {
   const auto place = [&](const ResponsePoint& point) {
     return branch.over.empty() ? point.omega : point.over;
   };
@@ -335,22 +321,6 @@ void estimate_places(ResponseBranch& branch) {
     const double estimate = event.point.stability->error * std::abs((place(beyond) - place(before)) / change);
     if (std::isfinite(estimate)) event.point.location_estimate = estimate;
   }
-}
-
-}  // namespace
-
-void complete_stability(ResponseBranch& branch) {
-  auto& points = branch.points;
-  share_errors(points.begin(), points.end());
-  share_errors(points.rbegin(), points.rend());
-  for (ResponseEvent& event : branch.events) {
-    if (event.point.stability && !event.point.stability->estimated)
-      for (std::size_t i = event.after; i < std::min(event.after + 2, points.size()); ++i)
-        if (points[i].stability)
-          event.point.stability->error = std::fmax(event.point.stability->error, points[i].stability->error);
-    set_apart(event.kind, event.point);
-  }
-  estimate_places(branch);
 }
 
 }  // namespace arcslip::observables

@@ -76,15 +76,13 @@ class StabilityAnalysis {
 /// The multipliers that bifurcations belong to: of half a period, where there are such.
 const Multipliers& of_map(const StabilityAnalysis& found, const hbm::HbmProblem& problem);
 
-/// At an event: `unstable` without the multipliers that make it one, which are outside the circle
+/// At an event of a branch: `unstable` without the multipliers that make it one, which are outside the circle
 /// or not by rounding, and the rotation number of a Neimark-Sacker point.
 void set_apart(const std::string& kind, ResponsePoint& point);
 
-/// What the points of a branch know of each other. The errors of multipliers where they were not estimated:
-/// the larger one of the nearest estimates on both sides. set_apart() of its events. location_estimate of its
-/// bifurcations: the error of their multipliers, over the change of the multiplier on the circle between the
-/// points on both sides.
-void complete_stability(ResponseBranch& branch);
+/// location_estimate of the bifurcations of a branch: the error of their multipliers, over the change of the
+/// multiplier on the circle between the points on both sides.
+void estimate_bifurcations(ResponseBranch& branch);
 
 /// The multipliers at a point; null: not known there.
 using MultipliersAt = std::function<const Multipliers*(const continuation::Accepted&)>;

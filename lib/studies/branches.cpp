@@ -44,14 +44,19 @@ struct Tables {
                [](const ResponseEvent& event) { return event.located; });
     events.add({"after"}, "", "index of the preceding point",
                [](const ResponseEvent& event) { return event.after; });
-    asked.maxima = !asked.mode;
-    events.add(responses(scene, asked), [](const ResponseEvent& event) { return &event.point; });
-    if (!asked.mode)
-      events.add(
+    const auto add_location = [](auto& table, auto point) {
+      table.add(
           {"location_estimate"}, "",
           "estimated effect of the neglected harmonics on `omega`, or on the parameter of a response over "
           "another one, in its unit; null where it is not known",
-          [](const ResponseEvent& event) { return event.point.location_estimate; });
+          [point](const auto& at) { return point(at).location_estimate; });
+    };
+    if (asked.maxima && !asked.mode)  // a curve of special points
+      add_location(points, [](const ResponsePoint& at) -> const ResponsePoint& { return at; });
+    asked.maxima = !asked.mode;
+    events.add(responses(scene, asked), [](const ResponseEvent& event) { return &event.point; });
+    if (!asked.mode)
+      add_location(events, [](const ResponseEvent& at) -> const ResponsePoint& { return at.point; });
   }
 
   results::TableOf<ResponsePoint> points;

@@ -20,7 +20,7 @@ namespace arcslip::optimize {
 struct DesignEstimate {
   std::vector<double> change;  // |dp|, in the units of the parameters; empty: not known, as at a kink, where
                                // a limit is active, or where the equations are singular
-  bool flagged = false;  // the estimate may be too low
+  bool flagged = false;        // the estimate may be too low
 };
 
 /// At the current design of the cases, with its balance.

@@ -6,6 +6,7 @@
 
 #include <arcslip/elements/contact_2d.hpp>
 #include <arcslip/elements/cubic_spring.hpp>
+#include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/json_writer.hpp>
@@ -159,4 +160,28 @@ TEST_CASE("a path that is none is refused") {
   CHECK_THROWS_WITH(observables::response_quantity("amplitud"), "no quantity \"amplitud\"");
   CHECK(observables::response_quantity("maxima.velocity").unit == "m/s");
   CHECK(observables::element_quantity("energy").unit == "J");
+}
+
+TEST_CASE("points of a curve of peaks tell how far the harmonics left out move their frequency") {
+  scene::Scene s = scenes::paper(5, 3);
+  const auto curves = observables::resonance_peaks(
+      s, {.over = "damper.normal_load", .from = 2, .to = 4, .frequency_from = 18, .frequency_to = 22});
+  std::stringstream text;
+  results::write_json(text, studies::results_of(s, curves));
+  const auto points = nlohmann::json::parse(text.str())["branches"][0]["points"];
+  REQUIRE(points.size() > 5);
+  const auto peak = [](const scene::Scene& scene) {
+    const auto branches = observables::frequency_response(scene, scenes::window(scene));
+    for (const auto& event : branches[0].events)
+      if (event.kind == "peak") return event.point.omega;
+    return 0.0;
+  };
+  for (const auto& point : {points.front(), points.back()}) {
+    scene::set(s, "damper.normal_load", point["damper.normal_load"]);
+    s.harmonics.order = 5;
+    const double few = peak(s);
+    CHECK(std::abs(few - point["omega"].get<double>()) < 1e-8 * few);
+    s.harmonics.order = 101;
+    CHECK(point["location_estimate"].get<double>() == Approx(std::abs(peak(s) - few)).epsilon(0.3));
+  }
 }

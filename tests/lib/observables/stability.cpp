@@ -130,6 +130,16 @@ TEST_CASE("bifurcations tell how far the harmonics left out may move them") {
   }
 }
 
+TEST_CASE("a fold next to grazing is stable but for its own multiplier, whose error is above its estimate") {
+  const auto folds = events(response(masses_and_stop(63), 0.57, 0.77), "fold");
+  REQUIRE(folds.size() == 2);
+  const auto& grazing = *folds[1].point.stability;
+  const double off = nearest_to(1, grazing.multipliers);
+  CHECK(off > 1.5 * grazing.error);
+  CHECK(off < 5 * grazing.error);
+  for (const auto& fold : folds) CHECK(fold.point.stability->unstable == 0);
+}
+
 TEST_CASE("the small orbit of the double well doubles its period at the force known from elsewhere") {
   // x = 1 + y: -x + x^3 = 2 y + 3 y^2 + y^3.
   const auto s = duffing("polynomial_spring", R"("coefficients": {"2": 3, "3": 1})", 2, 0.3, 0.1, 24);
