@@ -77,7 +77,8 @@ class StabilityAnalysis {
 const Multipliers& of_map(const StabilityAnalysis& found, const hbm::HbmProblem& problem);
 
 /// At an event of a branch: `unstable` without the multipliers that make it one, which are outside the circle
-/// or not by rounding, and the rotation number of a Neimark-Sacker point.
+/// or not by rounding and by what the harmonics left out change, and the rotation number of a Neimark-Sacker
+/// point.
 void set_apart(const std::string& kind, ResponsePoint& point);
 
 /// location_estimate of the bifurcations of a branch: the error of their multipliers, over the change of the

@@ -88,7 +88,7 @@ class Certifier {
   }
 
   void move_by_harmonics() {
-    DesignEstimate estimate = design_estimate(cases_, balance_);
+    DesignEstimate estimate = design_estimate(cases_, balance_, go_on_);
     result_.design_estimate = std::move(estimate.change);
     result_.design_flagged = estimate.flagged;
   }

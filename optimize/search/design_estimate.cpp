@@ -21,7 +21,8 @@ struct Active {
 
 }  // namespace
 
-DesignEstimate design_estimate(const LoadCases& cases, const Balance& balance) {
+DesignEstimate design_estimate(const LoadCases& cases, const Balance& balance,
+                               const std::function<bool()>& go_on) {
   DesignEstimate result;
   const std::vector<double>& design = cases.state(0).design;
   const bool limited = std::any_of(balance.limits.begin(), balance.limits.end(),
@@ -47,8 +48,10 @@ DesignEstimate design_estimate(const LoadCases& cases, const Balance& balance) {
                                              .of_change = Vector(n),
                                              .hessian = peaks.hessian(each.peak)});
     if (active.hessian.size() == 0) return result;
-    for (Eigen::Index k = 0; k < n; ++k)
+    for (Eigen::Index k = 0; k < n; ++k) {
+      if (go_on && !go_on()) return result;
       active.of_change[k] = peaks.change(each.peak, static_cast<std::size_t>(free[k]), change);
+    }
   }
   const auto members = [&](std::size_t group) {
     return std::count_if(all.begin(), all.end(), [&](const Active& each) { return each.group == group; });

@@ -13,6 +13,7 @@
 
 #include <arcslip/optimize/search/multipliers.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace arcslip::optimize {
@@ -23,7 +24,9 @@ struct DesignEstimate {
   bool flagged = false;        // the estimate may be too low
 };
 
-/// At the current design of the cases, with its balance.
-DesignEstimate design_estimate(const LoadCases& cases, const Balance& balance);
+/// At the current design of the cases, with its balance. go_on: called before each derivative; if it returns
+/// false the estimate is not known.
+DesignEstimate design_estimate(const LoadCases& cases, const Balance& balance,
+                               const std::function<bool()>& go_on = {});
 
 }  // namespace arcslip::optimize

@@ -5,9 +5,11 @@
 #include "optimize/paper_optimum.hpp"
 #include "optimize/row.hpp"
 
+#include <arcslip/optimize/search/design_estimate.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 
 #include <cmath>
+#include <memory>
 
 using namespace arcslip;
 using optimize::Criterion, optimize::OptimumProblem;
@@ -93,4 +95,18 @@ TEST_CASE(
   REQUIRE(doubtful.certificate);
   CHECK(doubtful.certificate->design_flagged == doubtful.point.truncation_flagged);
   CHECK(doubtful.certificate->design_flagged);
+}
+
+TEST_CASE("a stop in the middle of the estimate leaves it unknown") {
+  const auto model = std::make_shared<const model::Model>(model::build(scenes::paper(5)));
+  optimize::LoadCases cases(Criterion::worst);
+  cases.add(std::make_unique<optimize::PeakAmplitude>(
+                model, std::vector{model::parameter_index(*model, "damper.normal_load")},
+                observables::FrequencyWindow{18 * scenes::hertz, 22 * scenes::hertz}),
+            1);
+  const double lower = 0.1, upper = 100;
+  cases.trace(std::vector{3.09});
+  const auto balance = optimize::balance(cases, {&lower, 1}, {&upper, 1}, {});
+  CHECK(optimize::design_estimate(cases, balance).change.size() == 1);
+  CHECK(optimize::design_estimate(cases, balance, [] { return false; }).change.empty());
 }
