@@ -1,13 +1,11 @@
 // The studies of the example scenes.
 
 #include "catch.hpp"
-#include "size.hpp"
 
 #include "lib/hbm/scenes.hpp"
 #include "optimize/optima.hpp"
 
 #include <arcslip/observables/time_study.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 
 #include <algorithm>
@@ -358,46 +356,6 @@ TEST_CASE("beside a minimum, a lower design on the way to the end of its toleran
       s, over_damper, {.algorithm = "GN_DIRECT_L", .evaluations = 100, .certificate = false});
   CHECK(found.amplitude <= (1 + 1e-9) * global.amplitude);
   CHECK(found.certificate->at_bound == std::vector<int>{-1});
-}
-
-TEST_CASE("where a search cannot keep a limit from its start, designs elsewhere are looked at") {
-  scene::Scene s = scenes::paper(15, 3);
-  scene::set(s, "c.value", 3);
-  OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 15, 24};
-  problem.limits.push_back({.observable = "energy_friction", .at_most = 1e-4});  // stuck, or nearly free
-  const auto found = optimize::optimum(s, problem);
-  CHECK(found.status == observables::Status::complete);
-  CHECK(found.feasible);
-  CHECK(found.point.energy_friction <= 1e-4 * (1 + 1e-6));
-  scene::set(s, "damper.normal_load", found.design.at(0));
-  double highest = 0;
-  for (const auto& branch : observables::frequency_response(s, {15, 24}))
-    for (const auto& event : branch.events) highest = std::max(highest, event.point.amplitude);
-  CHECK(found.amplitude == Approx(highest).epsilon(1e-8));
-}
-
-TEST_CASE("what a callback throws while other starts are looked at ends the search with its text") {
-  scene::Scene s = scenes::paper(15, 3);
-  scene::set(s, "c.value", 3);
-  OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 15, 24};
-  problem.limits.push_back({.observable = "energy_friction", .at_most = 1e-4});
-  const auto whole = optimize::optimum(s, problem);
-  for (std::size_t last = 1; last <= whole.evaluations.size(); last += test_size::sized(1u, 8u)) {
-    optimize::OptimumOptions throws;
-    throws.progress = [&](const optimize::OptimumProgress& now) {
-      if (now.evaluations == static_cast<int>(last)) throw std::runtime_error("enough");
-      return true;
-    };
-    const auto found = optimize::optimum(s, problem, throws);
-    CAPTURE(last, found.stop.message);
-    CHECK(found.status == observables::Status::failed);
-    CHECK(found.stop.message.find("enough") != std::string::npos);
-    optimize::OptimumOptions stops;
-    stops.progress = [&](const optimize::OptimumProgress& now) {
-      return now.evaluations < static_cast<int>(last);
-    };
-    CHECK(optimize::optimum(s, problem, stops).stop.reason == optimize::reasons::user);
-  }
 }
 
 TEST_CASE("the best load of a cantilever is that of a beam of any mesh, and of a solid from matrices") {

@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 #include "contains.hpp"
+#include "size.hpp"
 
 #include "lib/hbm/scenes.hpp"
 
@@ -157,5 +158,29 @@ TEST_CASE("a curve of optima asks in the search for its first point, and along i
     CHECK(curve.status == observables::Status::stopped);
     CHECK(curve.stop.reason == optimize::reasons::user);
     CHECK(points == (along ? 3 : 0));
+  }
+}
+
+TEST_CASE("what a callback throws while other starts are looked at ends the search with its text") {
+  scene::Scene s = scenes::paper(15, 3);
+  scene::set(s, "c.value", 3);
+  optimize::OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 15, 24};
+  problem.limits.push_back({.observable = "energy_friction", .at_most = 1e-4});
+  const auto whole = optimize::optimum(s, problem);
+  for (std::size_t last = 1; last <= whole.evaluations.size(); last += test_size::sized(1u, 8u)) {
+    optimize::OptimumOptions throws;
+    throws.progress = [&](const optimize::OptimumProgress& now) {
+      if (now.evaluations == static_cast<int>(last)) throw std::runtime_error("enough");
+      return true;
+    };
+    const auto found = optimize::optimum(s, problem, throws);
+    CAPTURE(last, found.stop.message);
+    CHECK(found.status == observables::Status::failed);
+    CHECK(found.stop.message.find("enough") != std::string::npos);
+    optimize::OptimumOptions stops;
+    stops.progress = [&](const optimize::OptimumProgress& now) {
+      return now.evaluations < static_cast<int>(last);
+    };
+    CHECK(optimize::optimum(s, problem, stops).stop.reason == optimize::reasons::user);
   }
 }

@@ -308,3 +308,15 @@ TEST_CASE("of an element that does not tell its mean force none can be limited")
   problem.limits = {{.observable = "damper.mean_force_max", .at_least = 1}};
   CHECK_THROWS_AS(optimize::optimum(s, problem), optimize::OptionsError);
 }
+
+TEST_CASE("where a search cannot keep a limit from its start, designs elsewhere are looked at") {
+  scene::Scene s = scenes::paper(15, 3);
+  scene::set(s, "c.value", 3);
+  optimize::OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 15, 24};
+  problem.limits.push_back({.observable = "energy_friction", .at_most = 1e-4});  // stuck, or nearly free
+  const auto found = optimize::optimum(s, problem);
+  CHECK(found.status == observables::Status::complete);
+  CHECK(found.feasible);
+  CHECK(found.point.energy_friction <= 1e-4 * (1 + 1e-6));
+  CHECK(found.amplitude == Approx(highest_peak_of(s, problem, found.design)).epsilon(1e-8));
+}
