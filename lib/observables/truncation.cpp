@@ -5,7 +5,6 @@
 #include <arcslip/continuation/problem/difference.hpp>
 #include <arcslip/hbm/corner.hpp>
 #include <arcslip/observables/event_kinds.hpp>
-#include <arcslip/observables/waves.hpp>
 
 #include <algorithm>
 #include <array>
@@ -52,121 +51,13 @@ HeldBy held_by(const continuation::Event& event) {
   return bifurcation ? HeldBy::parameter : HeldBy::extremum;
 }
 
-namespace {
-
-// Symmetric, with the stiffnesses of the elements.
-Eigen::MatrixXd whole_stiffness(const model::Model& model, const Vector& p,
-                                const std::vector<double>& motions) {
-  Eigen::MatrixXd K = model::sum_of(model, model::LinearKind::spring, p);
-  if (!model::is_symmetric(model)) K = 0.5 * (K + K.transpose()).eval();
-  for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    const auto& element = model.elements[e];
-    for (std::size_t i = 0; i < element.directions.size(); ++i) {
-      const double reach = e < motions.size() ? motions[e] : 0;
-      const double stiffness = element.law->stiffness(element.fields(p), static_cast<int>(i), reach);
-      model::add_outer(stiffness, element.directions[i], K);
-    }
-  }
-  return K;
-}
-
-// The largest eigenvalue of K v = omega^2 M v; massless motions have none. 0 where there is none at all.
-double highest_square(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K) {
-  // M v = mu (K + shift M) v: mu = 1/(omega^2 + shift), zero for massless motions; definite with any shift >
-  // 0.
-  const double shift = std::max(K.cwiseAbs().maxCoeff() / std::max(M.cwiseAbs().maxCoeff(), 1e-300), 1e-300);
-  const Vector all = continuation::symmetric_eigenvalues(M, K + shift * M);
-  if (all.size() == 0) return 0;
-  const double largest = all.maxCoeff();
-  double highest = 0;
-  for (double mu : all)
-    if (mu > 1e-12 * largest) highest = std::max(highest, 1 / mu - shift);
-  return highest;
-}
-
-// The gyroscopic matrix.
-Eigen::MatrixXd skew_damping(const model::Model& model, const Vector& p) {
-  if (model::is_symmetric(model)) return {};
-  const Eigen::MatrixXd C = model::sum_of(model, model::LinearKind::damper, p);
-  return 0.5 * (C - C.transpose());
-}
-
-// The largest |lambda|^2 of lambda^2 M v + lambda G v + K v = 0, G skew-symmetric, in the modes of M and K
-// with mass: those without have no gyroscopic forces.
-double highest_square(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const Eigen::MatrixXd& G) {
-  if (G.size() == 0 || G.isZero(0)) return highest_square(M, K);
-  const double shift = std::max(K.cwiseAbs().maxCoeff() / std::max(M.cwiseAbs().maxCoeff(), 1e-300), 1e-300);
-  const auto modes = continuation::symmetric_modes(M, K + shift * M);
-  if (modes.values.size() == 0) return 0;
-  const double largest = modes.values.maxCoeff();
-  Eigen::Index massless = 0;
-  while (massless < modes.values.size() && !(modes.values[massless] > 1e-12 * largest)) ++massless;
-  const Eigen::Index n = modes.values.size() - massless;
-  const Vector mu = modes.values.tail(n);
-  const Eigen::MatrixXd V = modes.V.rightCols(n) * mu.cwiseSqrt().cwiseInverse().asDiagonal();
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  const double scale = std::sqrt(shift);
-  A.topRightCorner(n, n).diagonal().setConstant(scale);
-  A.bottomLeftCorner(n, n).diagonal() = (shift - mu.cwiseInverse().array()) / scale;
-  A.bottomRightCorner(n, n) = -V.transpose() * G * V;
-  const Eigen::VectorXcd all = continuation::eigenvalues(A);
-  return all.size() > 0 ? all.cwiseAbs2().maxCoeff() : 0;
-}
-
-// Of a sector of a ring in the waves of all its harmonics, in real and imaginary parts.
-double highest_square_of_waves(const model::Model& model, const Vector& p,
-                               const std::vector<double>& motions) {
-  double highest = 0;
-  const bool symmetric = model::is_symmetric(model);
-  for (const int diameter : diameters(*model.sector)) {
-    const auto sum = [&](model::LinearKind kind) { return sum_in_wave(model, kind, p, diameter); };
-    const Eigen::MatrixXd M = sum(model::LinearKind::mass);
-    Eigen::MatrixXd K = sum(model::LinearKind::spring), G;
-    if (!symmetric) {
-      K = 0.5 * (K + K.transpose()).eval();
-      const Eigen::MatrixXd C = sum(model::LinearKind::damper);
-      G = 0.5 * (C - C.transpose());
-    }
-    for (std::size_t e = 0; e < model.elements.size(); ++e) {
-      const auto& element = model.elements[e];
-      for (std::size_t i = 0; i < element.directions.size(); ++i)
-        model::add_outer(element.law->stiffness(element.fields(p), static_cast<int>(i),
-                                                e < motions.size() ? motions[e] : 0),
-                         element.directions[i], element.next.empty() ? model::Direction() : element.next[i],
-                         turn(*model.sector, diameter), K);
-    }
-    highest = std::max(highest, highest_square(M, K, G));
-  }
-  return highest;
-}
-
-// The highest natural frequency is at least this: the largest quotient k_ii/m_ii of a structure of lumped
-// masses. 0 of other structures.
-double bound_of_highest(const model::Model& model, const Vector& p) {
-  if (model.sector) return 0;
-  const Eigen::MatrixXd M = model::mass_matrix(model, p);
-  const Vector masses = M.diagonal();
-  if (!(masses.minCoeff() > 0) || !M.isDiagonal(0)) return 0;
-  const double square = (whole_stiffness(model, p, {}).diagonal().array() / masses.array()).maxCoeff();
-  return square > 0 ? std::sqrt(square) : 0;
-}
-
-}  // namespace
-
-double highest_natural_frequency(const model::Model& model, const Vector& p,
-                                 const std::vector<double>& motions) {
-  if (model.sector) return std::sqrt(highest_square_of_waves(model, p, motions));
-  return std::sqrt(highest_square(model::mass_matrix(model, p), whole_stiffness(model, p, motions),
-                                  skew_damping(model, p)));
-}
-
 Truncation::Truncation(const hbm::HbmProblem& problem, int free, const Vector& p)
     : problem_(problem),
       free_(free),
       wide_(problem, widened(problem.harmonics())),
       narrow_(problem, problem.harmonics()),
       p_(p),
-      bound_of_highest_(observables::bound_of_highest(problem.model(), p)),
+      bound_of_highest_(bound_of_highest_natural_frequency(problem.model(), p)),
       stiffens_(stiffen(problem.model(), p)),
       base_(wide_.problem().size()),
       residual_(base_.size()),
@@ -186,10 +77,11 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   exact_ = residual_.cwiseAbs().maxCoeff() <= linear_motion * force;
   if (exact_) return {.location = held == HeldBy::parameter ? no_value : 0};
 
-  bool flagged = resonance_left_out(now) || samples_too_few();
+  bool flagged = samples_too_few();
   double location = no_value;
   wide_.factorize(free_);
-  if (held != HeldBy::corner || !to_corner(now)) {
+  const bool is_at_corner = held == HeldBy::corner && to_corner(now);
+  if (!is_at_corner) {
     const double enough = tolerance * now.u.norm();
     const bool converges = wide_.solve(now.bordered, residual_, {}, change_, enough) <= converging;
     wide_.embed(now.tangent.head(n), tangent_.u);
@@ -203,21 +95,56 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   } else {
     location = std::abs(change_.parameter);
   }
-  wide_.at().stiffness().response(change_.u, 0, response_, extreme.place);
+  const double change = change_of_amplitude(change_, now, extreme, held);
+  const double size = response_.norm();
+  if (!std::isfinite(change)) return {.flagged = true};
+  const bool cancels = std::abs(change) < cancelled * size && size > tolerance * extreme.amplitude;
+  double estimate = cancels ? uncancelled * size : std::abs(change);
+  const elements::Harmonics& all = wide_.problem().harmonics();
+  const double base = all.base_frequency(now.p[model::frequency]);
+  const double highest = highest_natural_frequency_above(all.order * base, now);
+  if (problem_.harmonics().order * base < highest)
+    estimate += further_change(now, extreme, held, is_at_corner);
+  const double beyond = all.order * base < highest ? response_beyond(now) : 0;
+  const bool small = size + beyond <= small_change * extreme.amplitude && std::isfinite(estimate);
+  if (small) estimate = std::max(estimate, beyond);
+  return {.amplitude = std::isfinite(estimate) ? estimate : std::abs(change),
+          .change = change,
+          .flagged = flagged || !small,
+          .location = std::isfinite(location) ? location : no_value};
+}
+
+// Of the solution's change x; response_: that of the response.
+double Truncation::change_of_amplitude(const Change& x, const continuation::Accepted& now,
+                                       const Extreme& extreme, HeldBy held) {
+  wide_.at().stiffness().response(x.u, 0, response_, extreme.place);
   if (held != HeldBy::parameter) {
     wide_.embed(now.u, base_);
     wide_.at().stiffness().response_derivative(free_, base_, wide_.at().force_factor(), by_parameter_,
                                                extreme.place);
-    response_ += change_.parameter * by_parameter_;
+    response_ += x.parameter * by_parameter_;
   }
-  const double change = amplitude_change(wide_.problem().harmonics(), extreme, response_);
-  const double size = response_.norm();
-  if (!std::isfinite(change)) return {.flagged = true};
-  const bool cancels = std::abs(change) < cancelled * size && size > tolerance * extreme.amplitude;
-  return {.amplitude = cancels ? uncancelled * size : std::abs(change),
-          .change = change,
-          .flagged = flagged || size > small_change * extreme.amplitude,
-          .location = std::isfinite(location) ? location : no_value};
+  return amplitude_change(wide_.problem().harmonics(), extreme, response_);
+}
+
+// By a second correction, with the factors of the first: next to a resonance of a neglected harmonic the
+// first order is not all. NaN: not known.
+double Truncation::further_change(const continuation::Accepted& now, const Extreme& extreme, HeldBy held,
+                                  bool is_at_corner) {
+  wide_.embed(now.u, base_);
+  Vector p = now.p;
+  p[free_] += change_.parameter;
+  const hbm::HbmEvaluator* at = wide_.look_at(base_ + change_.u, p);
+  if (!at) return no_value;
+  Change further;
+  wide_.solve(is_at_corner ? *solver_ : now.bordered, at->residual(),
+              is_at_corner ? border_ : WideEquations::Border(), further);
+  if (held == HeldBy::parameter) {
+    const double step = -further.parameter / tangent_.parameter;
+    further.u += step * tangent_.u;
+    further.parameter = 0;
+  }
+  return std::abs(change_of_amplitude(further, now, extreme, held));
 }
 
 std::optional<Truncation::Refined> Truncation::refined(const continuation::Accepted& now, Reach reach) {
@@ -263,13 +190,46 @@ bool Truncation::samples_too_few() const {
   return change > resolved * largest;
 }
 
-bool Truncation::resonance_left_out(const continuation::Accepted& now) {
-  const elements::Harmonics& kept = problem_.harmonics();
-  const double reach = kept.order * kept.base_frequency(now.p[model::frequency]);
-  if (reach < bound_of_highest_) return true;
-  if (!highest_) highest_ = highest_natural_frequency(problem_.model(), p_);
-  if (reach < *highest_) return true;
-  if (!stiffens_) return false;
+// The highest natural frequency; of a large structure it may be a lower one above `reach`.
+double Truncation::highest_natural_frequency_above(double reach, const continuation::Accepted& now) {
+  const model::Model& model = problem_.model();
+  if (stiffens_) return highest_natural_frequency(model, now.p, largest_motions());
+  if (!high_modes_) {
+    auto modes = resonant_modes(model, p_);
+    if (!modes && reach < bound_of_highest_) return bound_of_highest_;
+    if (!modes) modes = {{highest_natural_frequency(model, p_), HUGE_VAL}};
+    double most = 0;
+    for (auto mode = modes->rbegin(); mode != modes->rend(); ++mode)
+      mode->gain = most = std::max(most, mode->omega > 0 ? mode->gain / (mode->omega * mode->omega) : 0);
+    high_modes_ = std::move(modes);
+  }
+  return high_modes_->empty() ? 0 : high_modes_->back().omega;
+}
+
+// The largest at the resonance of a mode beyond the harmonics of the wide equations. Forces of contacts fall
+// as n^-2: the one left out that is largest by this law tells what is beyond.
+double Truncation::response_beyond(const continuation::Accepted& now) const {
+  if (stiffens_ || !high_modes_) return HUGE_VAL;
+  const elements::Harmonics& all = wide_.problem().harmonics();
+  const double base = all.base_frequency(now.p[model::frequency]), reach = all.order * base;
+  const auto above = std::upper_bound(high_modes_->begin(), high_modes_->end(), reach,
+                                      [](double r, const ResonantMode& mode) { return r < mode.omega; });
+  if (above == high_modes_->end() || above->gain == 0) return 0;
+  const int kept = problem_.harmonics().order;
+  double force = 0;  // times n^2
+  for (std::size_t e = 0; e < wide_.at().element_count(); ++e) {
+    const auto F = wide_.at().element(e).force();
+    for (Eigen::Index block = 0; block < F.size(); block += all.size())
+      for (int j = 0; j < all.cosines(); ++j)
+        if (const int n = all.cosine_order(j); n > kept)
+          force = std::max(force,
+                           n * n * std::hypot(F[block + all.cosine_index(n)], F[block + all.sine_index(n)]));
+  }
+  return above->gain * force * base * base;
+}
+
+// Of |d_e . x| of each element.
+std::vector<double> Truncation::largest_motions() const {
   std::vector<double> motions;
   for (std::size_t e = 0; e < wide_.at().element_count(); ++e) {
     const auto& h = wide_.problem().harmonics();
@@ -281,7 +241,7 @@ bool Truncation::resonance_left_out(const continuation::Accepted& now) {
     }
     motions.push_back(largest);
   }
-  return reach < highest_natural_frequency(problem_.model(), now.p, motions);
+  return motions;
 }
 
 // The step along the tangent from the condition of the point.
@@ -389,13 +349,12 @@ bool Truncation::to_corner(const continuation::Accepted& now) {
   }
   if (!corner) return false;
   wide_.embed(now.u, base_);
-  WideEquations::Border border;
-  border.row.resize(base_.size());
-  hbm::corner_gradient(wide_.problem(), *corner, base_, now.p, border.row);
-  border.parameter = hbm::corner_derivative(wide_.problem(), *corner, base_, now.p, free_);
+  border_.row.resize(base_.size());
+  hbm::corner_gradient(wide_.problem(), *corner, base_, now.p, border_.row);
+  border_.parameter = hbm::corner_derivative(wide_.problem(), *corner, base_, now.p, free_);
   if (!solver_) solver_ = continuation::suitable_solver(wide_.at().jacobian());
-  if (!wide_.factorize_kept(border, free_, *solver_)) return false;
-  return wide_.solve(*solver_, residual_, border, change_) <= converging;
+  if (!wide_.factorize_kept(border_, free_, *solver_)) return false;
+  return wide_.solve(*solver_, residual_, border_, change_) <= converging;
 }
 
 }  // namespace arcslip::observables

@@ -17,18 +17,24 @@
 //
 // Derivatives with respect to s are differences along t. The estimate is |dA|, not a bound; where dA all but
 // vanishes, as where it changes sign, |dx|/20 with the change dx of the response, since the harmonics beyond
-// add a few percent of that. It is flagged if it may be far too low: N omega is below the highest natural
-// frequency with all elements at maximum stiffness, so that a resonance is neglected; the sweeps do not
-// converge; the change of the response is not small; samples do not resolve a force of the velocity; the
-// branch of more harmonics has no point at this q; or the condition of the point cannot be differentiated.
+// add a few percent of that. Where a natural frequency with all elements at maximum stiffness is above N omega,
+// a second correction with the same factors, d_2, adds |dA_2|; and where one is above (2 N + 9) omega, the
+// estimate is at least what its mode answers at resonance, with forces that fall as n^-2 (high_modes.hpp).
+//
+// It is flagged if it may be far too low: that resonance has no bound, or may add a tenth of the amplitude; the
+// sweeps do not converge; the change of the response is not small; samples do not resolve a force of the
+// velocity; the branch of more harmonics has no point at this q; or the condition of the point cannot be
+// differentiated.
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/observables/amplitude.hpp>
+#include <arcslip/observables/high_modes.hpp>
 #include <arcslip/observables/response.hpp>
 #include <arcslip/observables/wide_equations.hpp>
 
 #include <optional>
+#include <vector>
 
 namespace arcslip::observables {
 
@@ -79,26 +85,27 @@ class Truncation {
                                const Extreme& extreme);
   Step step_along(const continuation::Accepted& now, HeldBy held);
   bool to_corner(const continuation::Accepted& now);
-  bool resonance_left_out(const continuation::Accepted& now);
+  double change_of_amplitude(const Change& x, const continuation::Accepted& now, const Extreme& extreme,
+                             HeldBy held);
+  double further_change(const continuation::Accepted& now, const Extreme& extreme, HeldBy held,
+                        bool is_at_corner);
+  double highest_natural_frequency_above(double reach, const continuation::Accepted& now);
+  double response_beyond(const continuation::Accepted& now) const;
+  std::vector<double> largest_motions() const;
   bool samples_too_few() const;
 
   const hbm::HbmProblem& problem_;
   int free_;
   WideEquations wide_, narrow_;  // narrow_: those of order N, with exact friction
   continuation::Vector p_;
-  double bound_of_highest_;        // natural frequency, from below
-  std::optional<double> highest_;  // computed where the bound does not decide
+  double bound_of_highest_;                              // natural frequency, from below
+  std::optional<std::vector<ResonantMode>> high_modes_;  // when first asked for: all, in place of the gain
+                                                         // with the largest gain/omega^2 from the mode on
   bool stiffens_, exact_ = false;
-  std::unique_ptr<continuation::LinearSolver> solver_;
+  std::unique_ptr<continuation::LinearSolver> solver_;  // of a corner, with its border
+  WideEquations::Border border_;
   WideEquations::Change change_, tangent_;
   continuation::Vector base_, along_, residual_, response_, by_parameter_;
 };
-
-/// Highest natural frequency (rad/s) of M x'' + (K + sum of element stiffnesses) x = 0 at p; massless motions
-/// have none. 0 where there is none at all. Of a sector of a ring: in the waves of all harmonics. motions:
-/// largest |d_e . x| of each element (m), at which nonlinear springs have their stiffness 3 k3 |d_e . x|^2;
-/// without them they have none.
-double highest_natural_frequency(const model::Model& model, const continuation::Vector& p,
-                                 const std::vector<double>& motions = {});
 
 }  // namespace arcslip::observables

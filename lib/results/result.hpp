@@ -50,6 +50,7 @@ struct Shown {
   std::string error{};            // a column with its estimated error: digits that it moves are not shown
   double error_unit = 1;          // of that column, in the unit of this one
   std::string doubtful{};  // a flag of that error, which may be too low: three digits are shown at most
+  bool exact_without = true;  // without an estimate the value is exact, whatever the flag
 };
 
 /// The structure of all results of a study.

@@ -57,13 +57,17 @@ Truncation truncation_of(std::span<const observables::ResponseBranch> branches, 
     for (const observables::ResponseEvent& event : branch.events) add(event.point, found);
   }
   if (!estimated) found.estimate = no_value;
+  const auto add_landmarks = [&](const observables::ResponsePoint& point) {
+    if (!point.unbounded) found.landmarks.push_back({point.amplitude, found.amplitude});
+    for (const double value : {point.omega, point.over, point.damping_ratio})
+      if (std::isfinite(value)) found.landmarks.push_back({value, std::abs(value)});
+  };
   for (const observables::ResponseBranch& branch : branches) {
     if (branch.points.empty()) continue;
-    for (const auto* point : {&branch.points.front(), &branch.points.back()}) {
-      if (!point->unbounded) found.landmarks.push_back({point->amplitude, found.amplitude});
-      for (const double value : {point->omega, point->over, point->damping_ratio})
-        if (std::isfinite(value)) found.landmarks.push_back({value, std::abs(value)});
-    }
+    add_landmarks(branch.points.front());
+    add_landmarks(branch.points.back());
+    for (const observables::ResponseEvent& event : branch.events)
+      if (std::isnan(event.point.truncation_estimate)) add_landmarks(event.point);
   }
   return found;
 }

@@ -6,7 +6,7 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/hbm/problem.hpp>
-#include <arcslip/observables/truncation.hpp>
+#include <arcslip/observables/high_modes.hpp>
 
 #include <Eigen/Dense>
 

@@ -5,7 +5,7 @@
 #include "lib/scene/rotors.hpp"
 
 #include <arcslip/observables/curves.hpp>
-#include <arcslip/observables/truncation.hpp>
+#include <arcslip/observables/high_modes.hpp>
 
 #include <algorithm>
 #include <cmath>

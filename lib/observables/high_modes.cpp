@@ -1,0 +1,208 @@
+#include <arcslip/observables/high_modes.hpp>
+
+#include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/observables/waves.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+
+namespace arcslip::observables {
+namespace {
+
+using continuation::Vector;
+using model::LinearKind;
+
+constexpr int most_dofs = 200;       // of which all modes are computed
+constexpr double with_mass = 1e-12;  // of the largest 1/(omega^2 + shift): others are massless
+
+// Symmetric, with the stiffnesses of the elements.
+Eigen::MatrixXd whole_stiffness(const model::Model& model, const Vector& p,
+                                const std::vector<double>& motions) {
+  Eigen::MatrixXd K = model::sum_of(model, model::LinearKind::spring, p);
+  if (!model::is_symmetric(model)) K = 0.5 * (K + K.transpose()).eval();
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    const auto& element = model.elements[e];
+    for (std::size_t i = 0; i < element.directions.size(); ++i) {
+      const double reach = e < motions.size() ? motions[e] : 0;
+      const double stiffness = element.law->stiffness(element.fields(p), static_cast<int>(i), reach);
+      model::add_outer(stiffness, element.directions[i], K);
+    }
+  }
+  return K;
+}
+
+// M v = mu (K + shift M) v: mu = 1/(omega^2 + shift), zero for massless motions; definite with any shift > 0.
+double shift_of(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K) {
+  return std::max(K.cwiseAbs().maxCoeff() / std::max(M.cwiseAbs().maxCoeff(), 1e-300), 1e-300);
+}
+
+// The modes with mass, V^T M V = 1, and omega^2.
+struct Modes {
+  Vector squares;
+  Eigen::MatrixXd V;
+};
+Modes modes_with_mass(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K) {
+  const double shift = shift_of(M, K);
+  const auto modes = continuation::symmetric_modes(M, K + shift * M);
+  Eigen::Index massless = 0;
+  const Eigen::Index all = modes.values.size();
+  while (massless < all && !(modes.values[massless] > with_mass * modes.values[all - 1])) ++massless;
+  const Eigen::Index n = all - massless;
+  const Vector mu = modes.values.tail(n);
+  return {mu.cwiseInverse().array() - shift,
+          modes.V.rightCols(n) * mu.cwiseSqrt().cwiseInverse().asDiagonal()};
+}
+
+// The largest eigenvalue of K v = omega^2 M v; massless motions have none. 0 where there is none at all.
+double highest_square(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K) {
+  const double shift = shift_of(M, K);
+  const Vector all = continuation::symmetric_eigenvalues(M, K + shift * M);
+  if (all.size() == 0) return 0;
+  const double largest = all.maxCoeff();
+  double highest = 0;
+  for (double mu : all)
+    if (mu > with_mass * largest) highest = std::max(highest, 1 / mu - shift);
+  return highest;
+}
+
+// The gyroscopic matrix.
+Eigen::MatrixXd skew_damping(const model::Model& model, const Vector& p) {
+  if (model::is_symmetric(model)) return {};
+  const Eigen::MatrixXd C = model::sum_of(model, model::LinearKind::damper, p);
+  return 0.5 * (C - C.transpose());
+}
+
+// The largest |lambda|^2 of lambda^2 M v + lambda G v + K v = 0, G skew-symmetric, in the modes of M and K
+// with mass: those without have no gyroscopic forces.
+double highest_square(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const Eigen::MatrixXd& G) {
+  if (G.size() == 0 || G.isZero(0)) return highest_square(M, K);
+  const Modes modes = modes_with_mass(M, K);
+  const Eigen::Index n = modes.squares.size();
+  if (n == 0) return 0;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  const double scale = std::sqrt(shift_of(M, K));
+  A.topRightCorner(n, n).diagonal().setConstant(scale);
+  A.bottomLeftCorner(n, n).diagonal() = -modes.squares / scale;
+  A.bottomRightCorner(n, n) = -modes.V.transpose() * G * modes.V;
+  const Eigen::VectorXcd all = continuation::eigenvalues(A);
+  return all.size() > 0 ? all.cwiseAbs2().maxCoeff() : 0;
+}
+
+// Stiffnesses of the elements, in the wave of a diameter.
+void add_elements(const model::Model& model, const Vector& p, const std::vector<double>& motions,
+                  int diameter, Eigen::MatrixXd& K) {
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    const auto& element = model.elements[e];
+    for (std::size_t i = 0; i < element.directions.size(); ++i)
+      model::add_outer(
+          element.law->stiffness(element.fields(p), static_cast<int>(i), e < motions.size() ? motions[e] : 0),
+          element.directions[i], element.next.empty() ? model::Direction() : element.next[i],
+          turn(*model.sector, diameter), K);
+  }
+}
+
+// Of a sector of a ring in the waves of all its harmonics, in real and imaginary parts.
+double highest_square_of_waves(const model::Model& model, const Vector& p,
+                               const std::vector<double>& motions) {
+  double highest = 0;
+  const bool symmetric = model::is_symmetric(model);
+  for (const int diameter : diameters(*model.sector)) {
+    const auto sum = [&](LinearKind kind) { return sum_in_wave(model, kind, p, diameter); };
+    Eigen::MatrixXd K = sum(LinearKind::spring), G;
+    if (!symmetric) {
+      K = 0.5 * (K + K.transpose()).eval();
+      const Eigen::MatrixXd C = sum(LinearKind::damper);
+      G = 0.5 * (C - C.transpose());
+    }
+    add_elements(model, p, motions, diameter, K);
+    highest = std::max(highest, highest_square(sum(LinearKind::mass), K, G));
+  }
+  return highest;
+}
+
+// d . phi, of a motion of n degrees of freedom or of its real and imaginary parts.
+std::complex<double> along(const model::Direction& d, const Vector& phi) {
+  const bool wave = phi.size() > d.size();
+  std::complex<double> sum = 0;
+  for (model::Direction::InnerIterator i(d); i; ++i)
+    sum += i.value() * std::complex(phi[i.index()], wave ? phi[d.size() + i.index()] : 0.0);
+  return sum;
+}
+
+double largest_response(const model::Model& model, const Vector& phi) {
+  double largest = std::abs(along(model.response.sparseView(), phi));
+  for (const model::Direction& d : model.others) largest = std::max(largest, std::abs(along(d, phi)));
+  return largest;
+}
+
+// turn: to the next sector.
+double largest_at_elements(const model::Model& model, std::complex<double> turn, const Vector& phi) {
+  double largest = 0;
+  for (const auto& element : model.elements)
+    for (std::size_t i = 0; i < element.directions.size(); ++i) {
+      std::complex<double> q = along(element.directions[i], phi);
+      if (!element.next.empty()) q += turn * along(element.next[i], phi);
+      largest = std::max(largest, std::abs(q));
+    }
+  return largest;
+}
+
+// stiffness: of the structure alone; K: with the elements.
+void add_modes(const model::Model& model, const Vector& p, const Eigen::MatrixXd& M,
+               const Eigen::MatrixXd& dampers, const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& K,
+               std::complex<double> turn, std::vector<ResonantMode>& to) {
+  const model::ProportionalDamping none, &damping = model.damping ? *model.damping : none;
+  const Modes modes = modes_with_mass(M, K);
+  for (Eigen::Index k = 0; k < modes.squares.size(); ++k) {
+    const double omega = std::sqrt(std::max(modes.squares[k], 0.0));
+    const Vector phi = modes.V.col(k);
+    const double stiff = phi.dot(stiffness * phi);
+    const double loss = omega * (phi.dot(dampers * phi) + damping.alpha_at(p) + damping.beta_at(p) * stiff) +
+                        damping.loss_factor_at(p) * stiff;
+    const double force = largest_response(model, phi) * largest_at_elements(model, turn, phi);
+    to.push_back({omega, force == 0 ? 0 : loss > 0 ? force / loss : std::numeric_limits<double>::infinity()});
+  }
+}
+
+}  // namespace
+
+double bound_of_highest_natural_frequency(const model::Model& model, const Vector& p) {
+  if (model.sector) return 0;
+  const Eigen::MatrixXd M = model::mass_matrix(model, p);
+  const Vector masses = M.diagonal();
+  if (!(masses.minCoeff() > 0) || !M.isDiagonal(0)) return 0;
+  const double square = (whole_stiffness(model, p, {}).diagonal().array() / masses.array()).maxCoeff();
+  return square > 0 ? std::sqrt(square) : 0;
+}
+
+double highest_natural_frequency(const model::Model& model, const Vector& p,
+                                 const std::vector<double>& motions) {
+  if (model.sector) return std::sqrt(highest_square_of_waves(model, p, motions));
+  return std::sqrt(highest_square(model::mass_matrix(model, p), whole_stiffness(model, p, motions),
+                                  skew_damping(model, p)));
+}
+
+std::optional<std::vector<ResonantMode>> resonant_modes(const model::Model& model, const Vector& p) {
+  if (model.dofs > most_dofs || !model::is_symmetric(model)) return {};
+  std::vector<ResonantMode> all;
+  if (model.sector) {
+    for (const int diameter : diameters(*model.sector)) {
+      const auto sum = [&](LinearKind kind) { return sum_in_wave(model, kind, p, diameter); };
+      const Eigen::MatrixXd stiffness = sum(LinearKind::spring);
+      Eigen::MatrixXd K = stiffness;
+      add_elements(model, p, {}, diameter, K);
+      add_modes(model, p, sum(LinearKind::mass), sum(LinearKind::damper), stiffness, K,
+                turn(*model.sector, diameter), all);
+    }
+  } else {
+    add_modes(model, p, model::mass_matrix(model, p), model::sum_of(model, LinearKind::damper, p),
+              model::sum_of(model, LinearKind::spring, p), whole_stiffness(model, p, {}), 0, all);
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.omega < b.omega; });
+  return all;
+}
+
+}  // namespace arcslip::observables

@@ -1,0 +1,34 @@
+#pragma once
+// Natural modes of a structure with all elements at their maximum stiffness: which resonances the harmonics
+// of a motion may excite, and how far. Of a sector of a ring, in the waves of all harmonics.
+
+#include <arcslip/model/model.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace arcslip::observables {
+
+/// Highest natural frequency (rad/s) of M x'' + (K + sum of element stiffnesses) x = 0 at p; massless motions
+/// have none. 0 where there is none at all. motions: largest |d_e . x| of each element (m), at which
+/// nonlinear springs have their stiffness 3 k3 |d_e . x|^2; without them they have none.
+double highest_natural_frequency(const model::Model& model, const continuation::Vector& p,
+                                 const std::vector<double>& motions = {});
+
+/// From below, at little cost: the largest quotient sqrt(k_ii/m_ii) of a structure of lumped masses. 0 of
+/// other structures.
+double bound_of_highest_natural_frequency(const model::Model& model, const continuation::Vector& p);
+
+/// A natural mode phi, phi^T M phi = 1, at its resonance.
+struct ResonantMode {
+  double omega;  // rad/s
+  double gain;   // m/N: of the largest response to a force of 1 N of an element, |r . phi| max |d_e . phi|
+                // over omega phi^T C phi + loss factor phi^T K phi; infinite without damping
+};
+
+/// All modes with a natural frequency, in increasing order. Nothing for gyroscopic structures, whose modes
+/// are others, and for those of more than 200 degrees of freedom.
+std::optional<std::vector<ResonantMode>> resonant_modes(const model::Model& model,
+                                                        const continuation::Vector& p);
+
+}  // namespace arcslip::observables
