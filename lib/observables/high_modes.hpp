@@ -23,7 +23,7 @@ double bound_of_highest_natural_frequency(const model::Model& model, const conti
 struct ResonantMode {
   double omega;  // rad/s
   double gain;   // m/N: of the largest response to a force of 1 N of an element, |r . phi| max |d_e . phi|
-                // over omega phi^T C phi + loss factor phi^T K phi; infinite without damping
+                 // over omega phi^T C phi + loss factor phi^T K phi; infinite without damping
 };
 
 /// All modes with a natural frequency, in increasing order. Nothing for gyroscopic structures, whose modes

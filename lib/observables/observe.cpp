@@ -125,8 +125,11 @@ void Observer::add_stability(const continuation::Accepted& now, ResponsePoint& p
     return;
   }
   stable_u_.resize(0);
+  const auto& elements = problem_->model().elements;
+  const bool contacts =
+      std::any_of(elements.begin(), elements.end(), [](const auto& e) { return e.law->tells_contact(); });
   const auto refined = [&](Truncation::Reach reach) -> const Multipliers* {
-    const auto motion = truncation_->refined(now, reach);
+    const auto motion = truncation_->refined(now, reach, contacts);
     if (!motion) return nullptr;
     const bool known = motion->at ? stability_->move_to(motion->problem, *motion->at, motion->p)
                                   : stability_->move_to(motion->problem, motion->u, motion->p);
@@ -138,6 +141,29 @@ void Observer::add_stability(const continuation::Accepted& now, ResponsePoint& p
   stability.error = modal_error + distance(stability.multipliers, by_all);
   if (const Multipliers* by_half = refined(Truncation::Reach::half))
     stability.error += distance(by_all, *by_half);
+}
+
+// From the motion that the harmonics left out make of it, at the place where they do.
+void Observer::estimate_stick(const continuation::Accepted& now, ResponsePoint& point) {
+  const hbm::HbmEvaluator* moved = truncation_->is_exact() ? nullptr : truncation_->moved(now);
+  elements::FrictionState state;
+  for (std::size_t e = 0; e < point.elements.size(); ++e) {
+    ElementResponse& element = point.elements[e];
+    if (!element.has_stick) continue;
+    if (truncation_->is_exact())
+      element.stick_estimate = 0;
+    else if (moved && moved->element(e).friction(state))
+      element.stick_estimate = std::abs(100 * state.stick_share - element.stick_percent);
+  }
+  const auto& patches = problem_->model().patches;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    double sum = 0, area = 0;
+    for (std::size_t i = 0; i < patches[k].areas.size(); ++i) {
+      sum += patches[k].areas[i] * point.elements[patches[k].first + i].stick_estimate;
+      area += patches[k].areas[i];
+    }
+    point.patches[k].stick_estimate = sum / area;
+  }
 }
 
 ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, bool maxima) {
@@ -157,6 +183,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
   if (maxima) {
     if (!maxima_) maxima_ = std::make_unique<Maxima>(*problem_);
     maxima_->add_to(point, at, x_);
+    estimate_stick(now, point);
     for (std::size_t i = 0; i < point.responses.size(); ++i) {
       NamedResponse& named = point.responses[i];
       std::tie(named.velocity, named.acceleration) =

@@ -69,6 +69,7 @@ class Observer {
   void add_named_responses(const hbm::HbmEvaluator& at, continuation::In u, continuation::In p,
                            ResponsePoint& point);
   void add_stability(const continuation::Accepted& now, ResponsePoint& point);
+  void estimate_stick(const continuation::Accepted& now, ResponsePoint& point);
 
   std::shared_ptr<const hbm::HbmProblem> problem_;
   int free_;

@@ -127,6 +127,10 @@ bool has_wear(const Element& element) {
   return !std::isnan(element.wear_rate);
 }
 
+bool has_stick_estimate(const Element& element) {
+  return !std::isnan(element.stick_estimate);
+}
+
 bool has_mean_force(const Element& element) {
   return !std::isnan(element.mean_force_min);
 }
@@ -316,6 +320,10 @@ constexpr ResponseQuantity of_mode[] = {
 constexpr ElementQuantity of_element[] = {
     {"stick_percent", "%", "friction elements: share of the period in stick",
      element<&Element::stick_percent>, is_friction, is_friction_part},
+    {"stick_estimate", "%",
+     "friction elements, where the response has `maxima`: estimated effect of the neglected harmonics on "
+     "`stick_percent`",
+     element<&Element::stick_estimate>, has_stick_estimate, is_friction_part},
     {"open_percent", "%",
      "contacts with a normal direction: share of the period in separation; slip is the rest",
      element<&Element::open_percent>, has_normal_load, is_part_with_normal_load},
@@ -370,6 +378,8 @@ constexpr ElementQuantity of_element[] = {
 constexpr ElementQuantity of_patch[] = {
     {"stick_percent", "%", "share of the period in stick, the mean over the area",
      element<&Element::stick_percent>, is_friction, is_friction_part},
+    {"stick_estimate", "%", "the mean of that of the contacts over the area",
+     element<&Element::stick_estimate>, has_stick_estimate, is_friction_part},
     {"open_percent", "%", "laws with a normal direction: likewise in separation; slip is the rest",
      element<&Element::open_percent>, has_normal_load, is_part_with_normal_load},
     {"normal_load_max", "N", "likewise, the largest total normal load of the period",

@@ -42,8 +42,9 @@ struct ElementResponse {
   // With a normal load that varies: the share of the period in separation, 0 to 100, and that load, N.
   bool has_normal_load = false;
   double open_percent = 0, normal_load_max = 0, normal_load_min = 0;
-  double wear_rate = no_value;  // m^3/s; no_value without a wear coefficient
-  bool of_patch = false;        // one of ResponsePoint::patches has it
+  double stick_estimate = no_value;  // %, effect of the neglected harmonics; no_value: not known
+  double wear_rate = no_value;       // m^3/s; no_value without a wear coefficient
+  bool of_patch = false;             // one of ResponsePoint::patches has it
 
   // What the mean force may be, N: more than one where a slider sticks throughout the period, and the offset
   // chosen for it decides. no_value: not told.
@@ -118,16 +119,17 @@ struct Synthesis {
 
 /// One periodic response.
 struct ResponsePoint {
-  double omega = 0;                     // excitation frequency, rad/s
-  double over = 0;                      // the parameter ResponseBranch::over, if there is one
-  double amplitude = 0;                 // max over the period of |x|, m, at the scene's response; at several
-                                        // places: the largest, to which all else of the response belongs
-  double rms = no_value;                // root of the mean of x^2 over the period, m
-  double phase = 0;                     // rad, lag of the response's fundamental behind the force's
-  double truncation_estimate = 0;       // m, estimated effect of the neglected harmonics on the amplitude
-  double truncation_change = no_value;  // m, the same with its sign, which may cancel; no_value: not known
-  bool truncation_flagged = false;      // the estimate may be too low (truncation.hpp, stops.hpp)
-  double location_estimate = no_value;  // of an event: the same effect on omega or over; no_value: not known
+  double omega = 0;                      // excitation frequency, rad/s
+  double over = 0;                       // the parameter ResponseBranch::over, if there is one
+  double amplitude = 0;                  // max over the period of |x|, m, at the scene's response; at several
+                                         // places: the largest, to which all else of the response belongs
+  double rms = no_value;                 // root of the mean of x^2 over the period, m
+  double phase = 0;                      // rad, lag of the response's fundamental behind the force's
+  double truncation_estimate = 0;        // m, estimated effect of the neglected harmonics on the amplitude
+  double truncation_change = no_value;   // m, the same with its sign, which may cancel; no_value: not known
+  bool truncation_flagged = false;       // the estimate may be too low (truncation.hpp, stops.hpp)
+  double parameter_estimate = no_value;  // of an extremum of a curve of peaks: the same effect on over
+  double location_estimate = no_value;   // of an event: the same effect on omega or over; no_value: not known
   std::string stops;           // an element whose motion stops where it reverses (stops.hpp); empty: none
   double energy_friction = 0;  // J per period
   double energy_viscous = 0;   // J per period

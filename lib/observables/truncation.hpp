@@ -17,12 +17,13 @@
 //
 // Derivatives with respect to s are differences along t. The estimate is |dA|, not a bound; where dA all but
 // vanishes, as where it changes sign, |dx|/20 with the change dx of the response, since the harmonics beyond
-// add a few percent of that. Where a natural frequency with all elements at maximum stiffness is above N omega,
-// a second correction with the same factors, d_2, adds |dA_2|; and where one is above (2 N + 9) omega, the
-// estimate is at least what its mode answers at resonance, with forces that fall as n^-2 (high_modes.hpp).
+// add a few percent of that. Where a natural frequency with all elements at maximum stiffness is above N
+// omega, a second correction with the same factors, d_2, adds |dA_2|; and where one is above (2 N + 9) omega,
+// the estimate is at least what its mode answers at resonance, with forces that fall as n^-2
+// (high_modes.hpp).
 //
-// It is flagged if it may be far too low: that resonance has no bound, or may add a tenth of the amplitude; the
-// sweeps do not converge; the change of the response is not small; samples do not resolve a force of the
+// It is flagged if it may be far too low: that resonance has no bound, or may add a tenth of the amplitude;
+// the sweeps do not converge; the change of the response is not small; samples do not resolve a force of the
 // velocity; the branch of more harmonics has no point at this q; or the condition of the point cannot be
 // differentiated.
 
@@ -64,11 +65,14 @@ class Truncation {
   struct Refined {
     const hbm::HbmProblem& problem;
     const continuation::Vector& u;  // until the next call of estimate()
-    const hbm::HbmEvaluator* at;    // the same; null where no element tells of contacts
+    const hbm::HbmEvaluator* at;    // the same; null where it is not evaluated
     continuation::Vector p;
   };
   enum class Reach { all, half };  // of the harmonics above N
-  std::optional<Refined> refined(const continuation::Accepted& now, Reach reach = Reach::all);
+  std::optional<Refined> refined(const continuation::Accepted& now, Reach reach, bool evaluated);
+  /// The motion at the place to which an extremum moves, and at that of refined() of any other point; null:
+  /// it is not known.
+  const hbm::HbmEvaluator* moved(const continuation::Accepted& now);
 
  private:
   struct Step {
@@ -80,7 +84,7 @@ class Truncation {
   std::optional<Change> bend_of_branch(const continuation::Accepted& now);
   std::optional<Change> slope_along(WideEquations& in, const Change& x, bool with_residual,
                                     const continuation::Accepted& now);
-  double shift_of_extremum(const continuation::Accepted& now, const Extreme& extreme);
+  double step_to_extremum(const continuation::Accepted& now, const Extreme& extreme, double& parts);
   elements::Values response_to(WideEquations& in, const Change& x, const continuation::Accepted& now,
                                const Extreme& extreme);
   Step step_along(const continuation::Accepted& now, HeldBy held);
@@ -105,6 +109,7 @@ class Truncation {
   std::unique_ptr<continuation::LinearSolver> solver_;  // of a corner, with its border
   WideEquations::Border border_;
   WideEquations::Change change_, tangent_;
+  double to_extremum_ = 0;  // from change_, along tangent_
   continuation::Vector base_, along_, residual_, response_, by_parameter_;
 };
 

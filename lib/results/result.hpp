@@ -43,13 +43,13 @@ struct Table {
 
 /// A column of the output for people.
 struct Shown {
-  std::string title;              // "A_max (m)"
-  std::vector<std::string> path;  // of a column, or of a fact of the end
-  std::string format = "%.8g";    // of a number, as printf has it
-  std::string otherwise{};        // a flag whose name stands where there is no value and the flag is true
-  std::string error{};            // a column with its estimated error: digits that it moves are not shown
-  double error_unit = 1;          // of that column, in the unit of this one
-  std::string doubtful{};  // a flag of that error, which may be too low: three digits are shown at most
+  std::string title;                 // "A_max (m)"
+  std::vector<std::string> path;     // of a column, or of a fact of the end
+  std::string format = "%.8g";       // of a number, as printf has it
+  std::string otherwise{};           // a flag whose name stands where there is no value and the flag is true
+  std::vector<std::string> error{};  // a column with its estimated error: digits that it moves are not shown
+  double error_unit = 1;             // of that column, in the unit of this one
+  std::string doubtful{};     // a flag of that error, which may be too low: three digits are shown at most
   bool exact_without = true;  // without an estimate the value is exact, whatever the flag
 };
 

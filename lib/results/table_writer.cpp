@@ -54,7 +54,7 @@ Row cells(const std::vector<Shown>& shown, const Object& object, const Object& f
   for (const Shown& each : shown) {
     const Value* value = find(object, each.path);
     if (!value) value = find(facts, each.path);
-    const Value* estimate = each.error.empty() ? nullptr : find(object, {&each.error, 1});
+    const Value* estimate = each.error.empty() ? nullptr : find(object, each.error);
     const auto* error = estimate ? std::get_if<double>(&estimate->get()) : nullptr;
     double size = error ? *error * each.error_unit : 0;
     if (std::isnan(size) && !each.exact_without) size = 0;

@@ -53,10 +53,15 @@ struct Tables {
     };
     if (asked.maxima && !asked.mode)  // a curve of special points
       add_location(points, [](const ResponsePoint& at) -> const ResponsePoint& { return at; });
+    const bool of_curve = asked.maxima && !asked.mode;
     asked.maxima = !asked.mode;
     events.add(responses(scene, asked), [](const ResponseEvent& event) { return &event.point; });
     if (!asked.mode)
       add_location(events, [](const ResponseEvent& at) -> const ResponsePoint& { return at.point; });
+    if (of_curve)
+      events.add({"parameter_estimate"}, "",
+                 "of an extremum of a curve of peaks: the same effect on its parameter, in its unit",
+                 [](const ResponseEvent& at) { return at.point.parameter_estimate; });
   }
 
   results::TableOf<ResponsePoint> points;
@@ -72,20 +77,20 @@ std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked)
   if (!asked.over.empty())
     all.push_back({.title = results::with_unit(asked.over, parameter_unit(scene, asked.over)),
                    .path = {asked.over},
-                   .error = of_frequency ? "" : location,
-                   .doubtful = of_frequency ? "" : flag});
+                   .error = {of_frequency ? "parameter_estimate" : location},
+                   .doubtful = flag});
   all.push_back({"event", {"kind"}});
   all.push_back({.title = results::with_unit("frequency", scene::unit_name(scene.frequency_unit)),
                  .path = {"frequency"},
                  .format = "%.8f",
-                 .error = of_frequency ? location : "",
+                 .error = of_frequency ? std::vector{location} : std::vector<std::string>(),
                  .error_unit = in_scene_unit(scene, 1),
                  .doubtful = of_frequency ? flag : ""});
   all.push_back({.title = asked.mode ? "A (m)" : "A_max (m)",
                  .path = {"amplitude"},
                  .format = "%.8e",
                  .otherwise = "unbounded",
-                 .error = "truncation_estimate",
+                 .error = {"truncation_estimate"},
                  .doubtful = flag,
                  .exact_without = false});
   if (asked.mode) all.push_back({"damping ratio", {"damping_ratio"}, "%.8f"});

@@ -37,9 +37,8 @@ void add(std::span<const Quantity<Of>> quantities, const typename Quantity<Of>::
          results::TableOf<Item>& table) {
   for (const Quantity<Of>& quantity : quantities) {
     if (quantity.in && !quantity.in(origin)) continue;
-    if ((!asked.maxima && quantity.path.starts_with("maxima.")) ||
-        (!asked.amplitude && quantity.path == "amplitude"))
-      continue;
+    const bool with_maxima = quantity.path.starts_with("maxima.") || quantity.path == "stick_estimate";
+    if ((!asked.maxima && with_maxima) || (!asked.amplitude && quantity.path == "amplitude")) continue;
     if (!std::is_same_v<Of, observables::ElementResponse> && asked.mode &&
         !observables::is_of_modes(quantity.path))
       continue;
@@ -135,8 +134,11 @@ void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown) {
   const auto add_parts = [&](const std::vector<scene::Part>& parts, const char* key) {
     for (const scene::Part& part : parts)
       if (is_friction_part(part))
-        shown.push_back(
-            {(one ? "" : part.name + " ") + "stick (%)", {key, part.name, "stick_percent"}, "%.4f"});
+        shown.push_back({.title = (one ? "" : part.name + " ") + "stick (%)",
+                         .path = {key, part.name, "stick_percent"},
+                         .format = "%.4f",
+                         .error = {key, part.name, "stick_estimate"},
+                         .doubtful = "truncation_flagged"});
   };
   add_parts(scene.elements, "elements");
   add_parts(scene.patches, "patches");

@@ -129,7 +129,7 @@ Described<PointResponse> described(const scene::Scene& scene, const PointSetting
       {.title = "A_max (m)",
        .path = {"amplitude"},
        .format = "%.8e",
-       .error = "truncation_estimate",
+       .error = {"truncation_estimate"},
        .doubtful = "truncation_flagged"},
       {"phase (rad)", {"phase"}, "%.6f"}};
   add_stick(scene, shown);

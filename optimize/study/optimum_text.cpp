@@ -60,8 +60,18 @@ std::string frequency(const scene::Scene& scene, const observables::ResponsePoin
          " " + std::string(scene::unit_name(scene.frequency_unit));
 }
 
-// With several friction elements their stick shares are written once, not for every case.
-std::string place(const scene::Scene& scene, const observables::ResponsePoint& point, std::size_t most) {
+// Of a parameter at the optimum, relative; the largest.
+double relative_design_error(const Optimum& found) {
+  double largest = 0;
+  for (std::size_t k = 0; k < found.design.size(); ++k)
+    if (found.design[k] != 0) largest = std::max(largest, std::abs(design_error(found, k) / found.design[k]));
+  return largest;
+}
+
+// With several friction elements their stick shares are written once, not for every case. moved: how far the
+// design is off, relative, with which shares of stick change as if they were in proportion to it.
+std::string place(const scene::Scene& scene, const observables::ResponsePoint& point, std::size_t most,
+                  double moved) {
   std::string text = frequency(scene, point);
   std::vector<observables::ElementResponse> contacts;  // and patches
   for (const auto* list : {&point.elements, &point.patches})
@@ -69,7 +79,12 @@ std::string place(const scene::Scene& scene, const observables::ResponsePoint& p
       if (element.has_stick && !element.of_patch) contacts.push_back(element);
   for (const auto& element : contacts)
     if (contacts.size() <= most)
-      text += ", " + element.name + " sticks " + number(element.stick_percent, "%.4f") + " %";
+      text += ", " + element.name + " sticks " +
+              number(element.stick_percent,
+                     error_of(element.stick_percent, element.stick_estimate + moved * element.stick_percent,
+                              point),
+                     "%.4f") +
+              " %";
   return text;
 }
 
@@ -78,7 +93,8 @@ void write_cases(std::ostream& out, const scene::Scene& scene, const OptimumResu
   const auto& cases = result.optimum.cases;
   for (std::size_t c = 0; c < std::min(cases.size(), most_cases); ++c)
     out << "    " << case_text(scene, result.problem, cases[c]) << ": "
-        << at_point(cases[c].amplitude, cases[c].point) << " at " << place(scene, cases[c].point, 1)
+        << at_point(cases[c].amplitude, cases[c].point) << " at "
+        << place(scene, cases[c].point, 1, relative_design_error(result.optimum))
         << (cases[c].weight == 1 ? "" : ", weight " + number(cases[c].weight, "%.4g"))
         << (cases[c].active && !mean ? ", active" : "") << '\n';
   if (cases.size() > most_cases)
@@ -201,7 +217,8 @@ std::string text_of(const scene::Scene& scene, const OptimumResult& result) {
     write_cases(out, scene, result);
   } else {
     out << "  A_max = " << at_point(found.amplitude, found.point) << " at "
-        << place(scene, found.point, std::numeric_limits<std::size_t>::max()) << '\n';
+        << place(scene, found.point, std::numeric_limits<std::size_t>::max(), relative_design_error(found))
+        << '\n';
   }
   write_sums(out, result);
   if (!found.feasible) out << "  a constraint is violated there\n";

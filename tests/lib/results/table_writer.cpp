@@ -42,7 +42,7 @@ TEST_CASE("where there is no value a flag that is true stands in its place") {
 
 TEST_CASE("a number has the digits that its estimated error leaves, in its own unit") {
   Results results = shown();
-  results.schemas[0].shown[0].error = "error";
+  results.schemas[0].shown[0].error = {"error"};
   results.schemas[0].shown[0].error_unit = 0.1;
   results.schemas[0].shown[0].format = "%.6f";
   auto& table = results.schemas[0].tables[0];
@@ -58,6 +58,19 @@ TEST_CASE("where the error of a number may be too low three digits are shown at 
   std::get<std::vector<double>>(results.results[0].tables[0].columns[0].of) = {3.14159265, 3.14159265};
   CHECK(printed(results).find("     2.5        3.14  =a, ") != std::string::npos);
   CHECK(printed(results).find("     2.5  3.14159265 ") != std::string::npos);
+}
+
+TEST_CASE("without an estimate a number is exact, or as doubtful as its flag says") {
+  Results results = shown();
+  auto& x = results.schemas[0].shown[0];
+  x = {.title = "x (m)", .path = {"x"}, .format = "%.8f", .error = {"error"}, .doubtful = "yes"};
+  std::get<std::vector<double>>(results.results[0].tables[0].columns[0].of) = {3.14159265, 3.14159265};
+  results.schemas[0].tables[0].columns.push_back({{"error"}, Type::number});
+  results.results[0].tables[0].columns.push_back({std::vector<double>{std::nan(""), std::nan("")}});
+  CHECK(printed(results).find("     2.5  3.14159265  =a, ") != std::string::npos);
+  x.exact_without = false;
+  CHECK(printed(results).find("     2.5        3.14  =a, ") != std::string::npos);
+  CHECK(printed(results).find("     2.5  3.14159265 ") != std::string::npos);  // not flagged
 }
 
 TEST_CASE("a result without rows has one that says so, and results of one kind share a table") {

@@ -349,6 +349,34 @@ TEST_CASE("optima and curves of optima take an accuracy") {
   }
 }
 
+TEST_CASE("a cusp has no estimate: two orders agree in it, and its curve takes no more than that") {
+  const scene::Scene s = accurate(with_study(scenes::duffing_jenkins(), studies::folds(),
+                                             observables::CurveRange{"d.normal_load", 0.8, 3, 0.5, 4}),
+                                  1e-4);
+  const auto cusp = [](const Json& results) {
+    for (const Json& branch : results["branches"])
+      for (const Json& event : branch["events"])
+        if (event["kind"] == "cusp") return event;
+    return Json();
+  };
+  const Json all = run(s), found = cusp(all), told = all["branches"][0]["accuracy"];
+  REQUIRE(found.is_object());
+  CHECK(found["truncation_estimate"].is_null());
+  CHECK(found["truncation_flagged"] == true);
+  CHECK(told["error"] <= 1e-4);
+  CHECK(told["orders"].size() >= 2);
+  CHECK(told["order"] < 20);  // with the estimate at a fixed load it is not reached by 173
+  scene::Scene finer = s;
+  finer.harmonics.accuracy = 0;
+  finer.harmonics.order = 45;
+  const Json exact = cusp(run(finer));
+  REQUIRE(exact.is_object());
+  for (const char* of : {"amplitude", "frequency", "d.normal_load"}) {
+    CAPTURE(of);
+    CHECK(std::abs(found[of].get<double>() / exact[of].get<double>() - 1) <= 1e-4);
+  }
+}
+
 TEST_CASE("modes have no estimates: two orders agree") {
   const scene::Scene s = accurate(
       with_study(scenes::paper(7, 3), studies::modes(), observables::ModeRange{1, 1e-4, 1e-2}), 1e-5);
