@@ -56,8 +56,7 @@ Row cells(const std::vector<Shown>& shown, const Object& object, const Object& f
     if (!value) value = find(facts, each.path);
     const Value* estimate = each.error.empty() ? nullptr : find(object, each.error);
     const auto* error = estimate ? std::get_if<double>(&estimate->get()) : nullptr;
-    double size = error ? *error * each.error_unit : 0;
-    if (std::isnan(size) && !each.exact_without) size = 0;
+    const double size = error && std::isfinite(*error) ? *error * each.error_unit : 0;
     row.push_back(value ? text_of(*value, each.format, size, is_set(each.doubtful)) : no_value);
     if (row.back() == no_value && is_set(each.otherwise)) row.back() = each.otherwise;
   }

@@ -91,8 +91,7 @@ std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked)
                  .format = "%.8e",
                  .otherwise = "unbounded",
                  .error = {"truncation_estimate"},
-                 .doubtful = flag,
-                 .exact_without = false});
+                 .doubtful = flag});
   if (asked.mode) all.push_back({"damping ratio", {"damping_ratio"}, "%.8f"});
   add_stick(scene, all);
   if (asked.stability) all.push_back({"stable", {"stable"}});
