@@ -143,16 +143,18 @@ void Observer::add_stability(const continuation::Accepted& now, ResponsePoint& p
     stability.error += distance(by_all, *by_half);
 }
 
-// From the motion that the harmonics left out make of it, at the place where they do.
+// From the motion that the harmonics left out make of it. Where they move a peak along the branch, its share
+// of stick is next to stationary.
 void Observer::estimate_stick(const continuation::Accepted& now, ResponsePoint& point) {
-  const hbm::HbmEvaluator* moved = truncation_->is_exact() ? nullptr : truncation_->moved(now);
+  const auto refined =
+      truncation_->is_exact() ? std::nullopt : truncation_->refined(now, Truncation::Reach::all, true);
   elements::FrictionState state;
   for (std::size_t e = 0; e < point.elements.size(); ++e) {
     ElementResponse& element = point.elements[e];
     if (!element.has_stick) continue;
     if (truncation_->is_exact())
       element.stick_estimate = 0;
-    else if (moved && moved->element(e).friction(state))
+    else if (refined && refined->at->element(e).friction(state))
       element.stick_estimate = std::abs(100 * state.stick_share - element.stick_percent);
   }
   const auto& patches = problem_->model().patches;

@@ -69,7 +69,6 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   const Eigen::Index n = problem_.size();
   exact_ = false;
   change_.u.resize(0);
-  to_extremum_ = 0;
   if (!wide_.move_to(now.u, now.p)) return {.flagged = true};
   residual_ = wide_.at().residual();
   double force = 0;
@@ -88,12 +87,7 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
     wide_.embed(now.tangent.head(n), tangent_.u);
     tangent_.parameter = now.tangent[n];
     const Step step = step_along(now, held);
-    if (held == HeldBy::extremum) {
-      double parts = 0;
-      to_extremum_ = step_to_extremum(now, extreme, parts);
-      location = std::max(std::abs(change_.parameter + to_extremum_ * tangent_.parameter),
-                          uncancelled * (std::abs(change_.parameter) + parts * std::abs(tangent_.parameter)));
-    }
+    if (held == HeldBy::extremum) location = shift_of_extremum(now, extreme);
     change_.u += step.length * tangent_.u;
     change_.parameter += step.length * tangent_.parameter;
     flagged = flagged || !converges || !step.known;
@@ -173,19 +167,6 @@ std::optional<Truncation::Refined> Truncation::refined(const continuation::Accep
   const hbm::HbmEvaluator* at = evaluated ? wide_.look_at(base_, p) : nullptr;
   if (evaluated ? !at : !base_.allFinite() || !(p[model::frequency] > 0)) return {};
   return Refined{wide_.problem(), base_, at, std::move(p)};
-}
-
-const hbm::HbmEvaluator* Truncation::moved(const continuation::Accepted& now) {
-  if (change_.u.size() == 0 || !std::isfinite(to_extremum_)) return nullptr;
-  wide_.embed(now.u, base_);
-  base_ += change_.u;
-  Vector p = now.p;
-  p[free_] += change_.parameter;
-  if (to_extremum_ != 0) {
-    base_ += to_extremum_ * tangent_.u;
-    p[free_] += to_extremum_ * tangent_.parameter;
-  }
-  return base_.allFinite() && std::isfinite(p[free_]) ? wide_.look_at(base_, p) : nullptr;
 }
 
 // Laws of the velocity that are sampled have an error below any power of the samples, once these resolve
@@ -332,14 +313,10 @@ elements::Values Truncation::response_to(WideEquations& in, const Change& x,
   return elements::series_values(h, response, extreme.theta);
 }
 
-// From the point to the extremum of A + dA along the branch, -(dA)'/A''. Its instant theta moves along by
-// theta' = -x_st/x_tt (t: by theta), so that
+// Of an extremum in q. Its instant theta moves along the branch by theta' = -x_st/x_tt (t: by theta), so that
 //
 //   A'' = x_ss + x_st theta',   (dA)' = d(x)' + d(x)_t theta'
-//
-// parts: the sum of the absolute values of the parts of the step.
-double Truncation::step_to_extremum(const continuation::Accepted& now, const Extreme& extreme,
-                                    double& parts) {
+double Truncation::shift_of_extremum(const continuation::Accepted& now, const Extreme& extreme) {
   const auto bend = bend_of_branch(now);
   const auto rate = slope_along(wide_, change_, true, now);
   if (!bend || !rate) return no_value;
@@ -351,10 +328,11 @@ double Truncation::step_to_extremum(const continuation::Accepted& now, const Ext
   const elements::Values by_s = response_to(narrow_, {now.tangent.head(n), now.tangent[n]}, now, extreme);
   const double turning = -by_s.d1 / bent;
   const double curvature = response_to(narrow_, *bend, now, extreme).x + turning * by_s.d1;
-  const double by_rate = -response_to(wide_, *rate, now, extreme).x / curvature;
-  const double by_turning = -turning * response_to(wide_, change_, now, extreme).d1 / curvature;
-  parts = std::abs(by_rate) + std::abs(by_turning);
-  return by_rate + by_turning;
+  const double along = now.tangent[n] / curvature;
+  const double by_rate = -along * response_to(wide_, *rate, now, extreme).x;
+  const double by_turning = -along * turning * response_to(wide_, change_, now, extreme).d1;
+  const double parts = std::abs(change_.parameter) + std::abs(by_rate) + std::abs(by_turning);
+  return std::max(std::abs(change_.parameter + by_rate + by_turning), uncancelled * parts);
 }
 
 // The change at which the slip corner next to the point remains one.

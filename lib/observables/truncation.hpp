@@ -70,9 +70,6 @@ class Truncation {
   };
   enum class Reach { all, half };  // of the harmonics above N
   std::optional<Refined> refined(const continuation::Accepted& now, Reach reach, bool evaluated);
-  /// The motion at the place to which an extremum moves, and at that of refined() of any other point; null:
-  /// it is not known.
-  const hbm::HbmEvaluator* moved(const continuation::Accepted& now);
 
  private:
   struct Step {
@@ -84,7 +81,7 @@ class Truncation {
   std::optional<Change> bend_of_branch(const continuation::Accepted& now);
   std::optional<Change> slope_along(WideEquations& in, const Change& x, bool with_residual,
                                     const continuation::Accepted& now);
-  double step_to_extremum(const continuation::Accepted& now, const Extreme& extreme, double& parts);
+  double shift_of_extremum(const continuation::Accepted& now, const Extreme& extreme);
   elements::Values response_to(WideEquations& in, const Change& x, const continuation::Accepted& now,
                                const Extreme& extreme);
   Step step_along(const continuation::Accepted& now, HeldBy held);
@@ -109,7 +106,6 @@ class Truncation {
   std::unique_ptr<continuation::LinearSolver> solver_;  // of a corner, with its border
   WideEquations::Border border_;
   WideEquations::Change change_, tangent_;
-  double to_extremum_ = 0;  // from change_, along tangent_
   continuation::Vector base_, along_, residual_, response_, by_parameter_;
 };
 
