@@ -39,20 +39,21 @@ double shift_of(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K) {
   return std::max(K.cwiseAbs().maxCoeff() / std::max(M.cwiseAbs().maxCoeff(), 1e-300), 1e-300);
 }
 
-// The modes with mass, V^T M V = 1, and omega^2.
+// The modes with mass, V^T M V = the largest |M_ij|, and omega^2: the same digits in all units.
 struct Modes {
   Vector squares;
   Eigen::MatrixXd V;
 };
 Modes modes_with_mass(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K) {
-  const double shift = shift_of(M, K);
-  const auto modes = continuation::symmetric_modes(M, K + shift * M);
+  const double mass = std::max(M.cwiseAbs().maxCoeff(), 1e-300);
+  const double stiffness = std::max(K.cwiseAbs().maxCoeff(), 1e-300);
+  const auto modes = continuation::symmetric_modes(M / mass, K / stiffness + M / mass);
   Eigen::Index massless = 0;
   const Eigen::Index all = modes.values.size();
   while (massless < all && !(modes.values[massless] > with_mass * modes.values[all - 1])) ++massless;
   const Eigen::Index n = all - massless;
   const Vector mu = modes.values.tail(n);
-  return {mu.cwiseInverse().array() - shift,
+  return {(mu.cwiseInverse().array() - 1) * (stiffness / mass),
           modes.V.rightCols(n) * mu.cwiseSqrt().cwiseInverse().asDiagonal()};
 }
 
@@ -86,7 +87,7 @@ double highest_square(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const 
   const double scale = std::sqrt(shift_of(M, K));
   A.topRightCorner(n, n).diagonal().setConstant(scale);
   A.bottomLeftCorner(n, n).diagonal() = -modes.squares / scale;
-  A.bottomRightCorner(n, n) = -modes.V.transpose() * G * modes.V;
+  A.bottomRightCorner(n, n) = -modes.V.transpose() * (G / M.cwiseAbs().maxCoeff()) * modes.V;
   const Eigen::VectorXcd all = continuation::eigenvalues(A);
   return all.size() > 0 ? all.cwiseAbs2().maxCoeff() : 0;
 }
@@ -160,7 +161,8 @@ void add_modes(const model::Model& model, const Vector& p, const Eigen::MatrixXd
     const double omega = std::sqrt(std::max(modes.squares[k], 0.0));
     const Vector phi = modes.V.col(k);
     const double stiff = phi.dot(stiffness * phi);
-    const double loss = omega * (phi.dot(dampers * phi) + damping.alpha_at(p) + damping.beta_at(p) * stiff) +
+    const double loss = omega * (phi.dot(dampers * phi) + damping.alpha_at(p) * phi.dot(M * phi) +
+                                 damping.beta_at(p) * stiff) +
                         damping.loss_factor_at(p) * stiff;
     const double force = largest_response(model, phi) * largest_at_elements(model, turn, phi);
     to.push_back({omega, force == 0 ? 0 : loss > 0 ? force / loss : std::numeric_limits<double>::infinity()});

@@ -19,7 +19,7 @@ double highest_natural_frequency(const model::Model& model, const continuation::
 /// other structures.
 double bound_of_highest_natural_frequency(const model::Model& model, const continuation::Vector& p);
 
-/// A natural mode phi, phi^T M phi = 1, at its resonance.
+/// A natural mode phi at its resonance.
 struct ResonantMode {
   double omega;  // rad/s
   double gain;   // m/N: of the largest response to a force of 1 N of an element, |r . phi| max |d_e . phi|

@@ -18,6 +18,7 @@ using continuation::Vector;
 
 constexpr int least_tail = 9;  // orders of the excitation above N looked at: N + 9 at least, 2 N + 9 in all
 constexpr double linear_motion = 1e-13;  // forces left out, relative: below, nothing is neglected
+constexpr double rounding = 1e-13;       // of a second correction, over the amplitude
 constexpr double near_a_fold = 1e-4;     // a step along the branch, relative to |u|: beyond, its bend matters
 constexpr double at_corner = 1e-6;       // |h| over its size
 constexpr double resolved = 0.02;        // change of the harmonics kept with samples, over those left out
@@ -144,7 +145,8 @@ double Truncation::further_change(const continuation::Accepted& now, const Extre
     further.u += step * tangent_.u;
     further.parameter = 0;
   }
-  return std::abs(change_of_amplitude(further, now, extreme, held));
+  const double change = std::abs(change_of_amplitude(further, now, extreme, held));
+  return change <= rounding * extreme.amplitude ? 0 : change;
 }
 
 std::optional<Truncation::Refined> Truncation::refined(const continuation::Accepted& now, Reach reach,
