@@ -32,6 +32,28 @@ elements::Harmonics widened(const elements::Harmonics& h) {
   return {2 * h.order + least_tail * h.period, h.odd, h.period};
 }
 
+// Whether the natural modes, with their damping, are the same at two places of a branch.
+bool have_same_modes(const model::Model& model, const Vector& p, const Vector& q) {
+  const Eigen::Index others = p.size() - model::frequency - 1;
+  if (p.tail(others) == q.tail(others)) return true;
+  const auto same = [&](int k) { return k < 0 || p[k] == q[k]; };
+  for (const auto* parts : {&model.masses, &model.dampers, &model.springs})
+    if (!std::all_of(parts->begin(), parts->end(), [&](const auto& part) { return same(part.parameter); }))
+      return false;
+  if (!std::all_of(model.matrices.begin(), model.matrices.end(),
+                   [&](const auto& part) { return part.value(p) == part.value(q); }))
+    return false;
+  if (const auto& damping = model.damping;
+      damping && !(same(damping->alpha) && same(damping->beta) && same(damping->loss_factor)))
+    return false;
+  return std::all_of(model.elements.begin(), model.elements.end(), [&](const auto& element) {
+    const std::vector<double> at_p = element.fields(p), at_q = element.fields(q);
+    for (int i = 0; i < element.law->directions(); ++i)
+      if (element.law->stiffness(at_p, i, 0) != element.law->stiffness(at_q, i, 0)) return false;
+    return true;
+  });
+}
+
 // Whether some element is stiffer in large motions than at rest.
 bool stiffen(const model::Model& model, const Vector& p) {
   return std::any_of(model.elements.begin(), model.elements.end(), [&](const auto& element) {
@@ -194,6 +216,11 @@ bool Truncation::samples_too_few() const {
 double Truncation::highest_natural_frequency_above(double reach, const continuation::Accepted& now) {
   const model::Model& model = problem_.model();
   if (stiffens_) return highest_natural_frequency(model, now.p, largest_motions());
+  if (!have_same_modes(model, p_, now.p)) {
+    p_ = now.p;
+    high_modes_.reset();
+    bound_of_highest_ = bound_of_highest_natural_frequency(model, p_);
+  }
   if (!high_modes_) {
     auto modes = resonant_modes(model, p_);
     if (!modes && reach < bound_of_highest_) return bound_of_highest_;

@@ -52,7 +52,7 @@ HeldBy held_by(const continuation::Event& event);
 
 class Truncation {
  public:
-  /// p: parameters of the natural frequencies. free: the branch's parameter.
+  /// p: at the start of the branch. free: its parameter.
   Truncation(const hbm::HbmProblem& problem, int free, const continuation::Vector& p);
 
   /// At an accepted point of a branch (of a problem with the same harmonics); extreme: of its response.

@@ -5,6 +5,8 @@
 #include "lib/observables/reference.hpp"
 #include "lib/observables/same_event.hpp"
 
+#include <arcslip/observables/curves.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -144,6 +146,19 @@ TEST_CASE("estimates of a structure with many modes above the harmonics are thos
       return point.truncation_flagged || point.truncation_estimate == 0;
     }));
   }
+}
+
+TEST_CASE("the flag follows the damping along a branch over it") {
+  scene::Scene beam =
+      scene::read_file(ARCSLIP_SOURCE_DIR "/examples/cantilever/beam.json", test_catalogue::whole());
+  scene::set(beam, "damper.normal_load", 5);
+  beam.harmonics.order = 3;
+  const auto branch =
+      observables::parameter_response(beam, {.over = "steel.beta", .from = 0, .to = 2e-5, .frequency = 19.5})
+          .front();
+  REQUIRE(branch.points.size() > 3);
+  CHECK(branch.points.front().truncation_flagged);
+  CHECK_FALSE(branch.points.back().truncation_flagged);
 }
 
 TEST_CASE("at folds the estimate is the error of their amplitude within a factor of two") {
