@@ -1,5 +1,6 @@
 #include <arcslip/observables/curve_parts.hpp>
 
+#include <arcslip/observables/curve_estimates.hpp>
 #include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/reasons.hpp>
 
@@ -31,44 +32,6 @@ bool is_one_place(const ResponseBranch& part) {
 
 bool is_extreme(const ResponseEvent& event) {
   return event.kind == event_kinds::minimum || event.kind == event_kinds::maximum;
-}
-
-// The coefficient a of y = a x^n + b x^(n+1), by least squares; NaN without two values of x.
-double leading_coefficient(const std::vector<std::pair<double, double>>& values, int n) {
-  double aa = 0, ab = 0, bb = 0, ay = 0, by = 0;
-  for (const auto& [x, y] : values) {
-    const double a = std::pow(x, n), b = a * x;
-    aa += a * a, ab += a * b, bb += b * b, ay += a * y, by += b * y;
-  }
-  return (ay * bb - by * ab) / (aa * bb - ab * ab);
-}
-
-// How far the harmonics left out move the parameter at which a curve of peaks has a smooth extremum: where A
-// + dA has one, at a distance -(dA)'/A'', with derivatives over the parameter from two points on each side.
-void estimate_shift(const ResponseBranch& part, ResponseEvent& event) {
-  ResponsePoint& at = event.point;
-  const std::size_t first = event.after > 0 ? event.after - 1 : 0,
-                    last = std::min(event.after + 2, part.points.size() - 1);
-  const double size = part.points[last].over - part.points[first].over;
-  std::vector<std::pair<double, double>> amplitudes, changes;
-  for (std::size_t i = first; i <= last; ++i) {
-    const ResponsePoint& point = part.points[i];
-    const double x = (point.over - at.over) / size;
-    amplitudes.emplace_back(x, point.amplitude - at.amplitude);
-    changes.emplace_back(x, point.truncation_change - at.truncation_change);
-  }
-  const double shift = size * leading_coefficient(changes, 1) / (2 * leading_coefficient(amplitudes, 2));
-  if (!std::isfinite(shift)) return;
-  at.parameter_estimate = std::abs(shift);
-  const auto move = [&](auto list) {  // the shares of stick change with the parameter
-    for (std::size_t e = 0; e < (at.*list).size(); ++e) {
-      const double from = (part.points[first].*list)[e].stick_percent,
-                   to = (part.points[last].*list)[e].stick_percent;
-      (at.*list)[e].stick_estimate += std::abs((to - from) / size * shift);
-    }
-  };
-  move(&ResponsePoint::elements);
-  move(&ResponsePoint::patches);
 }
 
 }  // namespace
@@ -170,12 +133,13 @@ std::vector<ResponseBranch> CurveParts::of(const SpecialCurve& curve) const {
       if (each.arclength < begin || each.arclength > end || belongs_to_another(curve, each)) continue;
       if (is_extreme(each.event) && !departs(course, each.arclength, each.event.point.amplitude)) continue;
       part.events.push_back(each.event);
+      estimate_change(curve, each.arclength, part.events.back());
       if (peaks_ && each.arclength == begin) {
-        part.points.insert(part.points.begin(), each.event.point);
+        part.points.insert(part.points.begin(), part.events.back().point);
         at_points.insert(at_points.begin(), begin);
       }
       if (peaks_ && each.arclength == end) {
-        part.points.push_back(each.event.point);
+        part.points.push_back(part.events.back().point);
         at_points.push_back(end);
       }
       at_events.push_back(each.arclength);
@@ -185,8 +149,6 @@ std::vector<ResponseBranch> CurveParts::of(const SpecialCurve& curve) const {
       part.events[i].after =
           static_cast<std::size_t>(std::max<std::ptrdiff_t>(beyond - at_points.begin(), 1)) - 1;
     }
-    for (ResponseEvent& event : part.events)
-      if (peaks_ && is_extreme(event) && !event.nonsmooth) estimate_shift(part, event);
     if (is_one_place(part) && curve.points.size() > part.points.size()) continue;
     if (is_zero_of_function(kind_)) add_ends(curve, part);
     finish(part, curve, begin == -HUGE_VAL, end == HUGE_VAL);

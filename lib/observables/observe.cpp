@@ -178,6 +178,7 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, 
   point.truncation_estimate = truncation.amplitude;
   point.truncation_change = truncation.change;
   point.location_estimate = truncation.location;
+  point.location_change = truncation.location_change;
   point.truncation_flagged = truncation.flagged || !point.stops.empty();
   if (stability_) add_stability(now, point);
   point.energy_input = input_energy(*problem_, at, now.u);

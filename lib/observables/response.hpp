@@ -128,8 +128,9 @@ struct ResponsePoint {
   double truncation_estimate = 0;        // m, estimated effect of the neglected harmonics on the amplitude
   double truncation_change = no_value;   // m, the same with its sign, which may cancel; no_value: not known
   bool truncation_flagged = false;       // the estimate may be too low (truncation.hpp, stops.hpp)
-  double parameter_estimate = no_value;  // of an extremum of a curve of peaks: the same effect on over
+  double parameter_estimate = no_value;  // of an event of a curve: the same effect on over
   double location_estimate = no_value;   // of an event: the same effect on omega or over; no_value: not known
+  double location_change = no_value;     // the same with its sign
   std::string stops;           // an element whose motion stops where it reverses (stops.hpp); empty: none
   double energy_friction = 0;  // J per period
   double energy_viscous = 0;   // J per period

@@ -23,12 +23,6 @@ constexpr const char* below_event = "below";  // the slope vanishes on this side
 constexpr const char* above_event = "above";
 constexpr int most_parts = 64;
 
-ResponsePoint without_estimates(ResponsePoint point) {
-  point.truncation_estimate = point.truncation_change = point.location_estimate = no_value;
-  point.truncation_flagged = true;
-  return point;
-}
-
 }  // namespace
 
 Monitor window_monitor(const FrequencyWindow& window, Eigen::Index n) {
@@ -163,11 +157,8 @@ continuation::Branch SpecialCurveTracer::trace(const CurveStart& from) {
         event && (event->monitor == window_event || event->monitor == below_event ||
                   event->monitor == above_event || (corner && event->monitor == event_kinds::fold));
     if (event && (!terminal || event->monitor == event_kinds::fold)) {
-      ResponsePoint point = observe(now, held);
-      // More harmonics move it along the parameter, at whose value now they may have no fold at all.
-      if (event->monitor == event_kinds::cusp) point = without_estimates(std::move(point));
       result_.events.push_back(
-          {arclength, {event->monitor, event->nonsmooth, event->located, std::move(point)}});
+          {arclength, {event->monitor, event->nonsmooth, event->located, observe(now, held)}});
       return true;
     }
     if (std::exchange(first, false)) return true;

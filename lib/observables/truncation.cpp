@@ -98,10 +98,11 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   for (std::size_t e = 0; e < wide_.at().element_count(); ++e)
     force = std::max(force, wide_.at().element(e).force().cwiseAbs().maxCoeff());
   exact_ = residual_.cwiseAbs().maxCoeff() <= linear_motion * force;
-  if (exact_) return {.location = held == HeldBy::parameter ? no_value : 0};
+  if (exact_ && held == HeldBy::parameter) return {};
+  if (exact_) return {.location = 0, .location_change = 0};
 
   bool flagged = samples_too_few();
-  double location = no_value;
+  Shift location;
   wide_.factorize(free_);
   const bool is_at_corner = held == HeldBy::corner && to_corner(now);
   if (!is_at_corner) {
@@ -114,9 +115,9 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
     change_.u += step.length * tangent_.u;
     change_.parameter += step.length * tangent_.parameter;
     flagged = flagged || !converges || !step.known;
-    if (held == HeldBy::fold && step.known) location = std::abs(change_.parameter);
+    if (held == HeldBy::fold && step.known) location.change = change_.parameter;
   } else {
-    location = std::abs(change_.parameter);
+    location.change = change_.parameter;
   }
   const double change = change_of_amplitude(change_, now, extreme, held);
   const double size = response_.norm();
@@ -134,7 +135,8 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   return {.amplitude = std::isfinite(estimate) ? estimate : std::abs(change),
           .change = change,
           .flagged = flagged || !small,
-          .location = std::isfinite(location) ? location : no_value};
+          .location = std::max(std::abs(location.change), uncancelled * location.parts),
+          .location_change = location.change};
 }
 
 // Of the solution's change x; response_: that of the response.
@@ -345,10 +347,10 @@ elements::Values Truncation::response_to(WideEquations& in, const Change& x,
 // Of an extremum in q. Its instant theta moves along the branch by theta' = -x_st/x_tt (t: by theta), so that
 //
 //   A'' = x_ss + x_st theta',   (dA)' = d(x)' + d(x)_t theta'
-double Truncation::shift_of_extremum(const continuation::Accepted& now, const Extreme& extreme) {
+Truncation::Shift Truncation::shift_of_extremum(const continuation::Accepted& now, const Extreme& extreme) {
   const auto bend = bend_of_branch(now);
   const auto rate = slope_along(wide_, change_, true, now);
-  if (!bend || !rate) return no_value;
+  if (!bend || !rate) return {};
   const Eigen::Index n = now.u.size();
   const auto& narrow = narrow_.at().stiffness();
   Vector motion(narrow_.problem().harmonics().size());
@@ -360,8 +362,9 @@ double Truncation::shift_of_extremum(const continuation::Accepted& now, const Ex
   const double along = now.tangent[n] / curvature;
   const double by_rate = -along * response_to(wide_, *rate, now, extreme).x;
   const double by_turning = -along * turning * response_to(wide_, change_, now, extreme).d1;
-  const double parts = std::abs(change_.parameter) + std::abs(by_rate) + std::abs(by_turning);
-  return std::max(std::abs(change_.parameter + by_rate + by_turning), uncancelled * parts);
+  const double change = change_.parameter + by_rate + by_turning;
+  if (!std::isfinite(change)) return {};
+  return {change, std::abs(change_.parameter) + std::abs(by_rate) + std::abs(by_turning)};
 }
 
 // The change at which the slip corner next to the point remains one.

@@ -43,7 +43,8 @@ struct TruncationEstimate {
   double amplitude = 0;  // m
   double change = 0;     // dA, m, with its sign
   bool flagged = false;
-  double location = no_value;  // of an event, in units of q; no_value: not known
+  double location = no_value;         // of an event, in units of q; no_value: not known
+  double location_change = no_value;  // the same with its sign
 };
 
 /// The condition that defines a point of a branch.
@@ -81,7 +82,11 @@ class Truncation {
   std::optional<Change> bend_of_branch(const continuation::Accepted& now);
   std::optional<Change> slope_along(WideEquations& in, const Change& x, bool with_residual,
                                     const continuation::Accepted& now);
-  double shift_of_extremum(const continuation::Accepted& now, const Extreme& extreme);
+  struct Shift {
+    double change = no_value;
+    double parts = 0;  // the sum of their sizes
+  };
+  Shift shift_of_extremum(const continuation::Accepted& now, const Extreme& extreme);
   elements::Values response_to(WideEquations& in, const Change& x, const continuation::Accepted& now,
                                const Extreme& extreme);
   Step step_along(const continuation::Accepted& now, HeldBy held);

@@ -49,8 +49,9 @@ struct Shown {
   std::string otherwise{};           // a flag whose name stands where there is no value and the flag is true
   std::vector<std::string> error{};  // a column with its estimated error: digits that it moves are not shown
   double error_unit = 1;             // of that column, in the unit of this one
-  std::string doubtful{};  // a flag of that error, which may be too low: three digits are shown at most,
-                           // also without an estimate
+  // Columns that tell whether that error may be too low, flags that are true and estimates that are null:
+  // then three digits are shown at most, also without an estimate.
+  std::vector<std::string> doubtful{};
 };
 
 /// The structure of all results of a study.

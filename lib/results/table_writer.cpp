@@ -51,13 +51,19 @@ Row cells(const std::vector<Shown>& shown, const Object& object, const Object& f
     const Value* flag = name.empty() ? nullptr : find(object, {&name, 1});
     return flag && std::holds_alternative<bool>(flag->get()) && std::get<bool>(flag->get());
   };
+  const auto is_doubtful = [&](const std::string& name) {
+    const Value* value = find(object, {&name, 1});
+    const auto* number = value ? std::get_if<double>(&value->get()) : nullptr;
+    return is_set(name) || (number && !std::isfinite(*number));
+  };
   for (const Shown& each : shown) {
     const Value* value = find(object, each.path);
     if (!value) value = find(facts, each.path);
     const Value* estimate = each.error.empty() ? nullptr : find(object, each.error);
     const auto* error = estimate ? std::get_if<double>(&estimate->get()) : nullptr;
     const double size = error && std::isfinite(*error) ? *error * each.error_unit : 0;
-    row.push_back(value ? text_of(*value, each.format, size, is_set(each.doubtful)) : no_value);
+    const bool doubtful = std::any_of(each.doubtful.begin(), each.doubtful.end(), is_doubtful);
+    row.push_back(value ? text_of(*value, each.format, size, doubtful) : no_value);
     if (row.back() == no_value && is_set(each.otherwise)) row.back() = each.otherwise;
   }
   return row;

@@ -35,6 +35,9 @@ KindOf<Range, observables::ResponseBranch> branch_kind(std::string_view name, st
                 drawn == BranchKind::peaks || drawn == BranchKind::folds || drawn == BranchKind::bifurcations;
             asked.mode = drawn == BranchKind::modes;
             asked.stability = drawn == BranchKind::bifurcations;
+            asked.located = drawn == BranchKind::peaks || drawn == BranchKind::folds;
+            if constexpr (requires { range.resonance; })
+              asked.located = asked.located && range.resonance == decltype(range.resonance)::amplitude;
             if constexpr (requires { range.stability; }) asked.stability = range.stability;
             if constexpr (requires { range.method; })  // of those that refined_in_parts() may have made
               asked.order = scene.harmonics.accuracy > 0 && range.method != decltype(range.method)::shooting;

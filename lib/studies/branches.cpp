@@ -25,12 +25,18 @@ bool has_stability(const ResponseBranch& branch) {
                      [](const ResponsePoint& point) { return point.stability.has_value(); });
 }
 
+bool has_locations(const ResponseBranch& branch) {
+  return std::any_of(branch.points.begin(), branch.points.end(),
+                     [](const ResponsePoint& point) { return !std::isnan(point.location_estimate); });
+}
+
 // What the points of a branch have.
 Asked asked_of(const ResponseBranch& branch) {
   return {.over = branch.over,
           .maxima = has_maxima(branch),
           .mode = !branch.points.empty() && !std::isnan(branch.points.front().damping_ratio),
-          .stability = has_stability(branch)};
+          .stability = has_stability(branch),
+          .located = has_maxima(branch) && has_locations(branch)};
 }
 
 /// The tables of branches with the same columns.
@@ -59,9 +65,11 @@ struct Tables {
     if (!asked.mode)
       add_location(events, [](const ResponseEvent& at) -> const ResponsePoint& { return at.point; });
     if (of_curve)
-      events.add({"parameter_estimate"}, "",
-                 "of an extremum of a curve of peaks: the same effect on its parameter, in its unit",
-                 [](const ResponseEvent& at) { return at.point.parameter_estimate; });
+      events.add(
+          {"parameter_estimate"}, "",
+          "of an extremum, a turn or a cusp of a curve: the same effect on its parameter, in its unit; "
+          "null where it is not known",
+          [](const ResponseEvent& at) { return at.point.parameter_estimate; });
   }
 
   results::TableOf<ResponsePoint> points;
@@ -72,28 +80,30 @@ std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked)
   std::vector<results::Shown> all;
   if (asked.leaving) all = {{"no.", {"id"}}, {"period", {"period"}}};
   // Of the parameter that the branch is over; on a curve of special points of their frequency.
-  const std::string location = "location_estimate", flag = "truncation_flagged";
+  const std::string location = "location_estimate";
+  std::vector<std::string> doubts{"truncation_flagged"};
+  if (asked.located) doubts.push_back(location);  // not known where the event is: nor what it is there
   const bool of_frequency = asked.over.empty() || asked.maxima;
   if (!asked.over.empty())
     all.push_back({.title = results::with_unit(asked.over, parameter_unit(scene, asked.over)),
                    .path = {asked.over},
                    .error = {of_frequency ? "parameter_estimate" : location},
-                   .doubtful = flag});
+                   .doubtful = doubts});
   all.push_back({"event", {"kind"}});
   all.push_back({.title = results::with_unit("frequency", scene::unit_name(scene.frequency_unit)),
                  .path = {"frequency"},
                  .format = "%.8f",
                  .error = of_frequency ? std::vector{location} : std::vector<std::string>(),
                  .error_unit = in_scene_unit(scene, 1),
-                 .doubtful = of_frequency ? flag : ""});
+                 .doubtful = of_frequency ? doubts : std::vector<std::string>()});
   all.push_back({.title = asked.mode ? "A (m)" : "A_max (m)",
                  .path = {"amplitude"},
                  .format = "%.8e",
                  .otherwise = "unbounded",
                  .error = {"truncation_estimate"},
-                 .doubtful = flag});
+                 .doubtful = doubts});
   if (asked.mode) all.push_back({"damping ratio", {"damping_ratio"}, "%.8f"});
-  add_stick(scene, all);
+  add_stick(scene, all, doubts);
   if (asked.stability) all.push_back({"stable", {"stable"}});
   return all;
 }
@@ -176,7 +186,7 @@ Described<ResponseBranch> branches(const scene::Scene& scene, Asked asked, const
 results::Results results_of(const scene::Scene& scene, std::span<const ResponseBranch> all,
                             const RunOptions& options) {
   results::Results found{header(scene), {}, {}};
-  std::map<std::tuple<std::string, bool, bool, bool>, std::size_t>
+  std::map<std::tuple<std::string, bool, bool, bool, bool>, std::size_t>
       index;  // of schemas, by their distinguishing columns
   std::vector<Described<ResponseBranch>> described;
   const bool leaving = std::any_of(all.begin(), all.end(), [](const ResponseBranch& branch) {
@@ -185,8 +195,8 @@ results::Results results_of(const scene::Scene& scene, std::span<const ResponseB
   for (const ResponseBranch& branch : all) {
     Asked asked = asked_of(branch);
     asked.leaving = leaving;
-    const auto [at, is_new] =
-        index.try_emplace({asked.over, asked.maxima, asked.mode, asked.stability}, described.size());
+    const auto [at, is_new] = index.try_emplace(
+        {asked.over, asked.maxima, asked.mode, asked.stability, asked.located}, described.size());
     if (is_new) {
       described.push_back(branches(scene, asked, options));
       found.schemas.push_back(described.back().schema);

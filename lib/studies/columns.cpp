@@ -127,7 +127,8 @@ void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<
   }
 }
 
-void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown) {
+void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown,
+               const std::vector<std::string>& doubts) {
   using observables::is_friction_part;
   const auto count = std::count_if(scene.elements.begin(), scene.elements.end(), is_friction_part);
   const bool one = static_cast<std::size_t>(count) + scene.patches.size() == 1;
@@ -138,7 +139,7 @@ void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown) {
                          .path = {key, part.name, "stick_percent"},
                          .format = "%.4f",
                          .error = {key, part.name, "stick_estimate"},
-                         .doubtful = "truncation_flagged"});
+                         .doubtful = doubts});
   };
   add_parts(scene.elements, "elements");
   add_parts(scene.patches, "patches");

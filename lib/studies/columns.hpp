@@ -24,6 +24,7 @@ struct Asked {
   bool mode = false;          // of modes
   bool stability = false;     // Floquet multipliers
   bool leaving = false;       // of branches that leave others
+  bool located = false;       // the events of a curve have estimates of their places
   bool order = false;         // of the harmonics, where it may differ from point to point
 };
 
@@ -34,8 +35,9 @@ results::TableOf<observables::ResponsePoint> responses(const scene::Scene& scene
 void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<results::Column>& columns);
 
 /// The columns of friction elements and patches in text output: the share of the period, or of the time, in
-/// stick.
-void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown);
+/// stick. doubts: results::Shown::doubtful.
+void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown,
+               const std::vector<std::string>& doubts = {"truncation_flagged"});
 
 /// Reduces the matrices of the scene, if they are to be: observables::reduction().
 results::Header header(const scene::Scene& scene);

@@ -130,7 +130,7 @@ Described<PointResponse> described(const scene::Scene& scene, const PointSetting
        .path = {"amplitude"},
        .format = "%.8e",
        .error = {"truncation_estimate"},
-       .doubtful = "truncation_flagged"},
+       .doubtful = {"truncation_flagged"}},
       {"phase (rad)", {"phase"}, "%.6f"}};
   add_stick(scene, shown);
   if (settings.stability) shown.push_back({"stable", {"stable"}});

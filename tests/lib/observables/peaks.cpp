@@ -85,41 +85,6 @@ TEST_CASE("from 0.01 N to 500 N the peaks are one curve, whose least peak is the
   }
 }
 
-TEST_CASE("estimates of the load at the least peak, and of its share of stick, are their errors") {
-  const auto minimum = [](const ResponseBranch& branch) {
-    const auto found = std::find_if(branch.events.begin(), branch.events.end(),
-                                    [](const auto& event) { return event.kind == "minimum"; });
-    REQUIRE(found != branch.events.end());
-    return found->point;
-  };
-  const auto check = [&](const ResponsePoint& few, const ResponsePoint& many) {
-    const double error = std::abs(few.over - many.over);
-    CAPTURE(error, few.parameter_estimate);
-    CHECK(few.parameter_estimate > 0.6 * error);
-    CHECK(few.parameter_estimate < 1.5 * error);
-    const double of_stick = std::abs(few.elements[0].stick_percent - many.elements[0].stick_percent);
-    CAPTURE(of_stick, few.elements[0].stick_estimate);
-    CHECK(few.elements[0].stick_estimate > 0.5 * of_stick);
-    CHECK(few.elements[0].stick_estimate < 3 * of_stick);
-  };
-  const ResponsePoint exact = minimum(paper_peaks(101, 1, 10));
-  for (const int order : {3, 7, 15, 27}) {
-    CAPTURE(order);
-    check(minimum(paper_peaks(order, 1, 10)), exact);
-  }
-  scene::Scene beam =
-      scene::read_file(ARCSLIP_SOURCE_DIR "/examples/cantilever/beam.json", test_catalogue::whole());
-  const auto least = [&](int order) {
-    beam.harmonics.order = order;
-    return minimum(observables::resonance_peaks(beam, {"damper.normal_load", 10, 50, 17, 21}).front());
-  };
-  const ResponsePoint of_beam = least(45);
-  for (const int order : {3, 5}) {
-    CAPTURE(order);
-    check(least(order), of_beam);
-  }
-}
-
 TEST_CASE("one harmonic, no damping: peaks are p/(1 - pi f0/(4 p))/kd, least at Fn = pi N") {
   const ResponseBranch branch = paper_peaks(1, 2, 100, 0);
   for (const ResponsePoint& point : branch.points) {

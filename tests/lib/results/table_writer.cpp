@@ -54,7 +54,7 @@ TEST_CASE("a number has the digits that its estimated error leaves, in its own u
 
 TEST_CASE("where the error of a number may be too low three digits are shown at most") {
   Results results = shown();
-  results.schemas[0].shown[0] = {.title = "x (m)", .path = {"x"}, .format = "%.8f", .doubtful = "yes"};
+  results.schemas[0].shown[0] = {.title = "x (m)", .path = {"x"}, .format = "%.8f", .doubtful = {"yes"}};
   std::get<std::vector<double>>(results.results[0].tables[0].columns[0].of) = {3.14159265, 3.14159265};
   CHECK(printed(results).find("     2.5        3.14  =a, ") != std::string::npos);
   CHECK(printed(results).find("     2.5  3.14159265 ") != std::string::npos);
@@ -63,12 +63,26 @@ TEST_CASE("where the error of a number may be too low three digits are shown at 
 TEST_CASE("without an estimate a number is as doubtful as its flag says") {
   Results results = shown();
   results.schemas[0].shown[0] = {
-      .title = "x (m)", .path = {"x"}, .format = "%.8f", .error = {"error"}, .doubtful = "yes"};
+      .title = "x (m)", .path = {"x"}, .format = "%.8f", .error = {"error"}, .doubtful = {"yes"}};
   std::get<std::vector<double>>(results.results[0].tables[0].columns[0].of) = {3.14159265, 3.14159265};
   results.schemas[0].tables[0].columns.push_back({{"error"}, Type::number});
   results.results[0].tables[0].columns.push_back({std::vector<double>{std::nan(""), std::nan("")}});
   CHECK(printed(results).find("     2.5        3.14  =a, ") != std::string::npos);
   CHECK(printed(results).find("     2.5  3.14159265 ") != std::string::npos);  // not flagged
+}
+
+TEST_CASE("a number is doubtful where an estimate is not known") {
+  Results results = shown();
+  results.schemas[0].shown[0] = {
+      .title = "x (m)", .path = {"x"}, .format = "%.8f", .doubtful = {"yes", "error"}};
+  std::get<std::vector<double>>(results.results[0].tables[0].columns[0].of) = {1.41421356, 3.14159265};
+  results.schemas[0].tables[0].columns.push_back({{"error"}, Type::number});
+  auto& errors = results.results[0].tables[0].columns;
+  errors.push_back({std::vector<double>{0, std::nan("")}});
+  CHECK(printed(results).find("     2.5   1.41  =a, ") != std::string::npos);  // flagged
+  CHECK(printed(results).find("     2.5   3.14 ") != std::string::npos);
+  errors.back() = {std::vector<double>{0, 0}};
+  CHECK(printed(results).find("     2.5  3.14159265 ") != std::string::npos);
 }
 
 TEST_CASE("a result without rows has one that says so, and results of one kind share a table") {

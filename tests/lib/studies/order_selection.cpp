@@ -349,7 +349,7 @@ TEST_CASE("optima and curves of optima take an accuracy") {
   }
 }
 
-TEST_CASE("a cusp has no estimate: two orders agree in it, and its curve takes no more than that") {
+TEST_CASE("an accuracy holds at a cusp, at whose load more harmonics have no fold or two") {
   const scene::Scene s = accurate(with_study(scenes::duffing_jenkins(), studies::folds(),
                                              observables::CurveRange{"d.normal_load", 0.8, 3, 0.5, 4}),
                                   1e-4);
@@ -361,10 +361,9 @@ TEST_CASE("a cusp has no estimate: two orders agree in it, and its curve takes n
   };
   const Json all = run(s), found = cusp(all), told = all["branches"][0]["accuracy"];
   REQUIRE(found.is_object());
-  CHECK(found["truncation_estimate"].is_null());
-  CHECK(found["truncation_flagged"] == true);
+  CHECK(found["truncation_estimate"].is_number());
+  CHECK(found["truncation_flagged"] == false);
   CHECK(told["error"] <= 1e-4);
-  CHECK(told["orders"].size() >= 2);
   CHECK(told["order"] < 20);  // with the estimate at a fixed load it is not reached by 173
   scene::Scene finer = s;
   finer.harmonics.accuracy = 0;

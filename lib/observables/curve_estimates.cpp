@@ -1,0 +1,194 @@
+#include <arcslip/observables/curve_estimates.hpp>
+
+#include <arcslip/observables/event_kinds.hpp>
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace arcslip::observables {
+namespace {
+
+constexpr std::size_t on_each_side = 2;
+constexpr double uncancelled = 0.05;  // of the sizes of parts: what remains of them
+
+struct Neighbour {
+  double s = 0;  // arclength from the event
+  const ResponsePoint* point = nullptr;
+};
+
+// Two points on each side of an event, or fewer up to the next corner; none where the curve follows a corner
+// of the responses on one side only.
+std::vector<Neighbour> neighbours(const SpecialCurve& curve, double arclength) {
+  double from = -HUGE_VAL, to = HUGE_VAL;
+  for (const auto& each : curve.events) {
+    if (each.event.kind != event_kinds::corner) continue;
+    if (each.arclength <= arclength) from = std::max(from, each.arclength);
+    if (each.arclength >= arclength) to = std::min(to, each.arclength);
+  }
+  std::vector<const SpecialCurve::At*> before, after;
+  for (const auto& at : curve.points)
+    if (at.arclength >= from && at.arclength <= to && at.arclength != arclength &&
+        std::isfinite(at.point.location_change))
+      (at.arclength < arclength ? before : after).push_back(&at);
+  if (!before.empty() && !after.empty() &&
+      before.back()->corner.has_value() != after.front()->corner.has_value())
+    return {};
+  if (before.size() > on_each_side) before.erase(before.begin(), before.end() - on_each_side);
+  if (after.size() > on_each_side) after.resize(on_each_side);
+  std::vector<Neighbour> all;
+  for (const auto* side : {&before, &after})
+    for (const auto* at : *side) all.push_back({at->arclength - arclength, &at->point});
+  return all;
+}
+
+using Quantity = std::function<double(const Neighbour&)>;
+
+using Coefficients = std::array<double, 3>;
+
+// Of y = c_0 s^n + c_1 s^(n+1) + ... with so many terms, by least squares; NaN without as many neighbours.
+Coefficients fitted(const std::vector<Neighbour>& beside, int n, int terms, const Quantity& y_of) {
+  const auto rows = static_cast<Eigen::Index>(beside.size());
+  if (rows < terms) return {no_value, no_value, no_value};
+  double size = 0;  // of s
+  for (const Neighbour& at : beside) size = std::max(size, std::abs(at.s));
+  Eigen::MatrixXd powers(rows, terms);
+  Eigen::VectorXd y(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const Neighbour& at = beside[static_cast<std::size_t>(i)];
+    for (int k = 0; k < terms; ++k) powers(i, k) = std::pow(at.s / size, n + k);
+    y[i] = y_of(at);
+  }
+  const Eigen::VectorXd c = powers.colPivHouseholderQr().solve(y);
+  Coefficients all{};
+  for (int k = 0; k < terms; ++k) all[static_cast<std::size_t>(k)] = c[k] / std::pow(size, n + k);
+  return all;
+}
+
+// Of an event with its signs, NaN where not known, and the sizes of the parts of the last two.
+struct Changes {
+  double parameter = no_value, frequency = no_value, amplitude = no_value;
+  double of_frequency = 0, of_amplitude = 0;
+  double along = 0;  // the curve, ds
+};
+
+class Event {
+ public:
+  Event(std::vector<Neighbour> beside, const ResponsePoint& at) : beside_(std::move(beside)), at_(at) {}
+
+  Changes extremum(double ResponsePoint::*y, double ResponsePoint::*dy) const {
+    const double along = -course(dy, 1)[0] / (2 * course(y, 2)[0]);
+    const double moved = course(&ResponsePoint::omega, 1)[0] * along,
+                 grown = course(&ResponsePoint::amplitude, 1)[0] * along;
+    return {course(&ResponsePoint::over, 1)[0] * along,
+            at_.location_change + moved,
+            at_.truncation_change + grown,
+            std::abs(at_.location_change) + std::abs(moved),
+            std::abs(at_.truncation_change) + std::abs(grown),
+            along};
+  }
+
+  Changes turn() const {
+    const auto p = course(&ResponsePoint::over, 2), w = course(&ResponsePoint::omega, 1),
+               A = course(&ResponsePoint::amplitude, 2);
+    // Of y = y_0 + c_0 s^2 + c_1 s^3 at a given frequency, by the change of that at a given p.
+    const auto by_frequency = [&](const Coefficients& y, const Neighbour& at) {
+      return -at.point->location_change * (2 * y[0] * at.s + 3 * y[1] * at.s * at.s) /
+             (w[0] + 2 * w[1] * at.s);
+    };
+    const auto of_parameter = fitted(beside_, 0, 2, [&](const Neighbour& at) { return by_frequency(p, at); });
+    const auto of_amplitude = fitted(beside_, 0, 2, [&](const Neighbour& at) {
+      return at.point->truncation_change + by_frequency(A, at);
+    });
+    const bool has_pole = std::all_of(beside_.begin(), beside_.end(), [&](const Neighbour& at) {
+      return std::abs(by_frequency(p, at) - of_parameter[0]) <= std::abs(of_parameter[0]);
+    });
+    if (!has_pole) return {};
+    const double along = -of_parameter[1] / (2 * p[0]), moved = w[0] * along;
+    return {of_parameter[0], moved, of_amplitude[0], std::abs(moved), std::abs(of_amplitude[0]), along};
+  }
+
+  Changes cusp() const {
+    const auto p = course(&ResponsePoint::over, 2, 3), w = course(&ResponsePoint::omega, 2, 3),
+               A = course(&ResponsePoint::amplitude, 1, 3);
+    const auto d = fitted(beside_, 0, 3, [](const Neighbour& at) { return at.point->location_change; });
+    const double e = w[0] / p[0], cubic = w[1] - e * p[1];
+    const double parameter = -2 * p[0] * d[1] / (3 * cubic);
+    // At its value of p the fold moves as 1/s, and with it dA.
+    const auto pole =
+        fitted(beside_, 0, 3, [](const Neighbour& at) { return at.point->truncation_change * at.s; });
+    const double moved = e * parameter, grown = A[1] / p[0] * parameter;
+    return {parameter, d[0] + moved, pole[1] + grown, std::abs(d[0]) + std::abs(moved),
+            std::abs(pole[1]) + std::abs(grown)};
+  }
+
+ private:
+  // Of y from the event on, from the power n.
+  Coefficients course(double ResponsePoint::*y, int n, int terms = 2) const {
+    return fitted(beside_, n, terms, [&](const Neighbour& at) { return at.point->*y - at_.*y; });
+  }
+
+  std::vector<Neighbour> beside_;
+  const ResponsePoint& at_;
+};
+
+double size(double change, double of_parts) {
+  return std::max(std::abs(change), uncancelled * of_parts);
+}
+
+// At a value of the parameter that has a cusp, more harmonics have no fold next to it, or two.
+void forget_estimates(ResponsePoint& at) {
+  at.truncation_estimate = at.truncation_change = no_value;
+  at.truncation_flagged = true;
+  for (auto* list : {&at.elements, &at.patches})
+    for (ElementResponse& part : *list) part.stick_estimate = no_value;
+}
+
+}  // namespace
+
+void estimate_change(const SpecialCurve& curve, double arclength, ResponseEvent& event) {
+  ResponsePoint& at = event.point;
+  const bool is_cusp = event.kind == event_kinds::cusp;
+  std::vector<Neighbour> beside;
+  if (!event.nonsmooth) beside = neighbours(curve, arclength);
+  const Event it(beside, at);
+  Changes changes;
+  if (event.kind == event_kinds::minimum || event.kind == event_kinds::maximum)
+    changes = it.extremum(&ResponsePoint::amplitude, &ResponsePoint::truncation_change);
+  else if (event.kind == event_kinds::turn)
+    changes = it.extremum(&ResponsePoint::omega, &ResponsePoint::location_change);
+  else if (event.kind == event_kinds::fold)
+    changes = it.turn();
+  else if (is_cusp)
+    changes = it.cusp();
+  at.location_estimate = at.location_change = no_value;  // was: at its value of the parameter
+  if (is_cusp) forget_estimates(at);
+  if (!std::isfinite(changes.parameter)) return;
+  at.parameter_estimate = std::abs(changes.parameter);
+  at.location_estimate = size(changes.frequency, changes.of_frequency);
+  at.location_change = changes.frequency;
+  if (std::isfinite(changes.amplitude)) {
+    at.truncation_estimate = std::fmax(at.truncation_estimate, size(changes.amplitude, changes.of_amplitude));
+    at.truncation_change = changes.amplitude;
+    if (is_cusp)
+      at.truncation_flagged = std::any_of(
+          beside.begin(), beside.end(), [](const Neighbour& each) { return each.point->truncation_flagged; });
+  }
+  const auto move = [&](auto list) {  // the shares of stick change along the curve
+    for (std::size_t e = 0; e < (at.*list).size(); ++e) {
+      const double from = (beside.front().point->*list)[e].stick_percent,
+                   to = (beside.back().point->*list)[e].stick_percent;
+      (at.*list)[e].stick_estimate +=
+          std::abs((to - from) / (beside.back().s - beside.front().s) * changes.along);
+    }
+  };
+  move(&ResponsePoint::elements);
+  move(&ResponsePoint::patches);
+}
+
+}  // namespace arcslip::observables
