@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <utility>
+#include <vector>
 
 namespace arcslip::elements {
 namespace {
@@ -22,24 +24,23 @@ Reversals::Reversals(const Harmonics& harmonics)
       derivative_(intervals_, harmonics.size()),
       between_(harmonics.size(), 3 * intervals_),
       samples_(intervals_) {
+  std::vector<std::complex<double>> waves(static_cast<std::size_t>(harmonics.order + 1));
+  const auto set_slopes = [&](double theta, auto&& row) {  // of the basis
+    powers(theta, harmonics.order + 1, waves.data());
+    for (int i = 0; i < harmonics.cosines(); ++i) {
+      const int n = harmonics.cosine_order(i);
+      row[i] = -n * waves[static_cast<std::size_t>(n)].imag();
+    }
+    for (int j = 0; j < harmonics.sines(); ++j) {
+      const int n = harmonics.sine_order(j);
+      row[harmonics.cosines() + j] = n * waves[static_cast<std::size_t>(n)].real();
+    }
+  };
   for (int k = 0; k < intervals_; ++k) {
-    set_slope_basis(start_ + k * step_, derivative_.row(k));
-    for (int i = 0; i < 3; ++i)
-      set_slope_basis(start_ + (k + 0.25 * (i + 1)) * step_, between_.col(3 * k + i));
+    set_slopes(start_ + k * step_, derivative_.row(k));
+    for (int i = 0; i < 3; ++i) set_slopes(start_ + (k + 0.25 * (i + 1)) * step_, between_.col(3 * k + i));
   }
   found_.reserve(static_cast<std::size_t>(4 * harmonics.order + 16));
-}
-
-template <class Row>
-void Reversals::set_slope_basis(double theta, Row&& row) const {
-  for (int i = 0; i < harmonics_.cosines(); ++i) {
-    const int n = harmonics_.cosine_order(i);
-    row[i] = -n * std::sin(n * theta);
-  }
-  for (int j = 0; j < harmonics_.sines(); ++j) {
-    const int n = harmonics_.sine_order(j);
-    row[harmonics_.cosines() + j] = n * std::cos(n * theta);
-  }
 }
 
 Reversal Reversals::polish(In u, const Slope& from, const Slope& to) const {

@@ -37,8 +37,6 @@ class Reversals {
     bool positive;
   };
 
-  template <class Row>
-  void set_slope_basis(double theta, Row&& row) const;
   void one_harmonic(In u);
   void search(In u, const Slope& from, const Slope& to, double M, int depth, int column);
   Reversal polish(In u, const Slope& from, const Slope& to) const;
