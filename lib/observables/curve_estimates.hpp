@@ -10,7 +10,8 @@
 //                                   which are regular; d omega = -omega' (dp)'/p''
 //   a cusp of a curve of folds      omega = q + e (p - p_c) on the curve, q = c s^3, p - p_c = a s^2:
 //                                   dp = -2 a (d omega)'/(3 c), d omega + e dp; dA has a pole,
-//                                   r/s + dA_0, and dA_0 + (A''/p'') dp
+//                                   r/s + dA_0; with A = b_1 s + b_2 s^2, p - p_c = a s^2 + a_3 s^3:
+//                                   dA_0 + (b_2 - 3/4 b_1 a_3/a) dp/a
 //
 // Derivatives are those of polynomials through the event and two points on each side.
 
