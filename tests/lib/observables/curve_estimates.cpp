@@ -4,11 +4,14 @@
 
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/observables/curve_estimates.hpp>
 #include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/special_curve.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace arcslip;
@@ -132,5 +135,100 @@ TEST_CASE("where a curve reaches a corner of the response, its place has no esti
   for (const ResponseEvent& corner : corners) {
     CHECK(std::isnan(corner.point.location_estimate));
     CHECK(std::isnan(corner.point.parameter_estimate));
+  }
+}
+
+namespace {
+
+/// A point of a curve with its changes at its value of the parameter.
+ResponsePoint made_up(double over, double omega, double amplitude, double d_omega = 0,
+                      double d_amplitude = 0) {
+  ResponsePoint point;
+  point.over = over;
+  point.omega = omega;
+  point.amplitude = amplitude;
+  point.location_change = d_omega;
+  point.location_estimate = std::abs(d_omega);
+  point.truncation_change = d_amplitude;
+  point.truncation_estimate = std::abs(d_amplitude);
+  return point;
+}
+
+/// estimate_change() of an event between these points of a curve, which have their arclengths.
+ResponsePoint estimated(const std::string& kind, const ResponsePoint& at,
+                        const std::vector<std::pair<double, ResponsePoint>>& points) {
+  observables::SpecialCurve curve;
+  for (const auto& [arclength, point] : points) curve.points.push_back({arclength, 0, point});
+  ResponseEvent event{kind, false, true, at};
+  event.point.truncation_estimate = 0;
+  observables::estimate_change(curve, 0, event);
+  return event.point;
+}
+
+bool is_next_to(double value, double exact) {
+  return std::abs(value - exact) < 0.01 * exact;
+}
+
+}  // namespace
+
+TEST_CASE("the estimates of a cusp are those of its normal form with terms of higher order") {
+  // On the branch omega = f p + mu p s + k s^3 + beta p s^2 + q s^4, and A = alpha s + B s^2 + gamma p. More
+  // harmonics add e (d0 + d1 s + d2 s^2) and e (a0 + a1 s).
+  const double f = 0.4, mu = 1.3, k = 0.7, beta = 0.9, q = -0.5, alpha = 2, B = 0.6, gamma = -0.8, e = 1e-8,
+               d0 = 0.2, d1 = 1.2, d2 = -0.7, a0 = 0.3, a1 = 0.4;
+  for (const double bend : {0.0, 3.0}) {  // of the arclength of the curve: s = sigma + bend sigma^2
+    CAPTURE(bend);
+    std::vector<std::pair<double, ResponsePoint>> points;
+    for (const double sigma : {-4e-3, -2e-3, 1e-3, 3e-3}) {
+      const double s = sigma + bend * sigma * sigma;
+      const double p = -(3 * k * s * s + 4 * q * s * s * s) / (mu + 2 * beta * s);
+      const double omega = f * p + mu * p * s + k * s * s * s + beta * p * s * s + q * s * s * s * s;
+      const double moved = -e * (d1 + 2 * d2 * s) / (6 * k * s + 2 * beta * p + 12 * q * s * s);
+      points.emplace_back(sigma,
+                          made_up(p, omega, alpha * s + B * s * s + gamma * p, e * (d0 + d1 * s + d2 * s * s),
+                                  e * (a0 + a1 * s) + (alpha + 2 * B * s) * moved));
+    }
+    const ResponsePoint cusp = estimated("cusp", made_up(0, 0, 0), points);
+    const double p = -e * d1 / mu, s = -(beta * p + e * d2) / (3 * k);
+    CHECK(is_next_to(cusp.parameter_estimate, std::abs(p)));
+    CHECK(is_next_to(cusp.location_estimate, std::abs(e * d0 + f * p)));
+    CHECK(is_next_to(cusp.truncation_estimate, std::abs(e * a0 + alpha * s + gamma * p)));
+    CHECK_FALSE(cusp.truncation_flagged);
+  }
+}
+
+TEST_CASE("the estimates of a turn are those of a curve that is moved at each frequency") {
+  // p = a w^2 + b w^3 and A = c w^2 over w = omega - 1; more harmonics add e (g0 + g1 w) and e (h0 + h1 w).
+  const double a = 0.8, b = -1.5, c = 0.9, e = 1e-8, g0 = 0.7, g1 = 1.9, h0 = -0.6, h1 = 0.3;
+  std::vector<std::pair<double, ResponsePoint>> points;
+  for (const double w : {-4e-3, -2e-3, 1e-3, 3e-3}) {
+    const double moved = -e * (g0 + g1 * w) / (2 * a * w + 3 * b * w * w);
+    points.emplace_back(w, made_up(a * w * w + b * w * w * w, 1 + w, c * w * w, moved,
+                                   e * (h0 + h1 * w) + 2 * c * w * moved));
+  }
+  const ResponsePoint turn = estimated("fold", made_up(0, 1, 0), points);
+  CHECK(is_next_to(turn.parameter_estimate, e * g0));
+  CHECK(is_next_to(turn.location_estimate, e * g1 / (2 * a)));
+  CHECK(is_next_to(turn.truncation_estimate, std::abs(e * h0)));
+  points.erase(points.begin() + 2, points.end());  // at an end of a curve
+  CHECK(std::isnan(estimated("fold", made_up(0, 1, 0), points).parameter_estimate));
+}
+
+TEST_CASE("the estimates of an extremum are those of a curve that is moved at each parameter") {
+  // y = a p^2 + b p^3 and z = 1 + c p, amplitude and frequency or the other way round; more harmonics add
+  // e (g0 + g1 p) and e h0.
+  const double a = 0.8, b = -1.5, c = 0.9, e = 1e-8, g0 = 0.7, g1 = 1.9, h0 = 3;
+  for (const bool is_turn : {false, true}) {
+    CAPTURE(is_turn);
+    const auto point = [&](double p) {
+      const double y = a * p * p + b * p * p * p, z = 1 + c * p, dy = e * (g0 + g1 * p), dz = e * h0;
+      return is_turn ? made_up(p, y, z, dy, dz) : made_up(p, z, y, dz, dy);
+    };
+    std::vector<std::pair<double, ResponsePoint>> points;
+    for (const double p : {-4e-3, -2e-3, 1e-3, 3e-3}) points.emplace_back(p, point(p));
+    const ResponsePoint at = estimated(is_turn ? "turn" : "minimum", point(0), points);
+    CHECK(is_next_to(at.parameter_estimate, e * g1 / (2 * a)));
+    CHECK(is_next_to(is_turn ? at.location_estimate : at.truncation_estimate, e * g0));
+    CHECK(is_next_to(is_turn ? at.truncation_estimate : at.location_estimate, e * (h0 - c * g1 / (2 * a))));
   }
 }
