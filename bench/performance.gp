@@ -57,7 +57,8 @@ set yrange [*:1e-1]
 set key bottom right Left reverse
 plot data("exact") using 1:2 with linespoints lw 2 pt 7 lc rgb blue title "harmonic balance, exact integrals, N = 1 to 201", \
      data("chosen") using 1:2 with points lw 2 pt 4 ps 2.5 lc rgb blue title "the same, order chosen by an accuracy", \
-     data("chosen") using 1:2:3 with labels offset 2.5, 0.6 tc rgb blue notitle, \
+     for [i = 0:2] data("chosen") every ::i::i using 1:2:3 with labels left offset 1, 0.8 + 0.9*(2 - i) tc rgb blue notitle, \
+     data("chosen") every ::3 using 1:2:3 with labels left offset 1, 0.8 tc rgb blue notitle, \
      data("sampled") using 1:2 with points pt 6 ps 1.3 lc rgb orange title "harmonic balance, sampled friction", \
      data("newmark") using 1:2 with linespoints lw 2 pt 5 lc rgb green title "shooting, Newmark's method, 150 frequencies", \
      data("event_driven") using 1:2 with points lw 2 pt 9 ps 2 lc rgb violet title "shooting, exact in time, 150 frequencies"
