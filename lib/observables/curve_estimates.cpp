@@ -67,12 +67,14 @@ Coefficients fitted(const std::vector<Neighbour>& beside, int n, int terms, cons
   for (Eigen::Index i = 0; i < rows; ++i) {
     const Neighbour& at = beside[static_cast<std::size_t>(i)];
     for (int k = 0; k < terms; ++k) powers(i, k) = std::pow(at.s / size, n + k);
-    if (first) powers(i, 0) = first(at) / std::pow(size, n);
+    if (first) powers(i, 0) = first(at);
     y[i] = y_of(at);
   }
+  const double unit = first ? powers.col(0).cwiseAbs().maxCoeff() : std::pow(size, n);
+  if (first) powers.col(0) /= unit;
   const Eigen::VectorXd c = powers.colPivHouseholderQr().solve(y);
-  Coefficients all{};
-  for (int k = 0; k < terms; ++k) all[static_cast<std::size_t>(k)] = c[k] / std::pow(size, n + k);
+  Coefficients all{c[0] / unit};
+  for (int k = 1; k < terms; ++k) all[static_cast<std::size_t>(k)] = c[k] / std::pow(size, n + k);
   return all;
 }
 
@@ -182,7 +184,7 @@ void estimate_change(const SpecialCurve& curve, double arclength, ResponseEvent&
   const bool is_cusp = event.kind == event_kinds::cusp;
   std::vector<Neighbour> beside;
   double to_corner = 0;
-  if (!event.nonsmooth) beside = neighbours(curve, arclength, to_corner);
+  if (!event.nonsmooth && event.located) beside = neighbours(curve, arclength, to_corner);
   const Event it(beside, at);
   Changes changes;
   if (event.kind == event_kinds::minimum || event.kind == event_kinds::maximum)

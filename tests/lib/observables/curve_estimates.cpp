@@ -156,10 +156,10 @@ ResponsePoint made_up(double over, double omega, double amplitude, double d_omeg
 
 /// estimate_change() of an event between these points of a curve, which have their arclengths.
 ResponsePoint estimated(const std::string& kind, const ResponsePoint& at,
-                        const std::vector<std::pair<double, ResponsePoint>>& points) {
+                        const std::vector<std::pair<double, ResponsePoint>>& points, bool located = true) {
   observables::SpecialCurve curve;
   for (const auto& [arclength, point] : points) curve.points.push_back({arclength, 0, point});
-  ResponseEvent event{kind, false, true, at};
+  ResponseEvent event{kind, false, located, at};
   event.point.truncation_estimate = 0;
   observables::estimate_change(curve, 0, event);
   return event.point;
@@ -176,21 +176,24 @@ TEST_CASE("the estimates of a cusp are those of its normal form with terms of hi
   // harmonics add e (d0 + d1 s + d2 s^2) and e (a0 + a1 s).
   const double f = 0.4, mu = 1.3, k = 0.7, beta = 0.9, q = -0.5, alpha = 2, B = 0.6, gamma = -0.8, e = 1e-8,
                d0 = 0.2, d1 = 1.2, d2 = -0.7, a0 = 0.3, a1 = 0.4;
-  for (const double bend : {0.0, 3.0}) {  // of the arclength of the curve: s = sigma + bend sigma^2
-    CAPTURE(bend);
+  // bend: of the arclength of the curve, s = sigma + bend sigma^2; unit: of p.
+  const double small = std::ldexp(1, -90), large = std::ldexp(1, 90);
+  for (const auto& [bend, unit] :
+       {std::pair(0.0, 1.0), std::pair(3.0, 1.0), std::pair(3.0, small), std::pair(3.0, large)}) {
+    CAPTURE(bend, unit);
     std::vector<std::pair<double, ResponsePoint>> points;
     for (const double sigma : {-4e-3, -2e-3, 1e-3, 3e-3}) {
       const double s = sigma + bend * sigma * sigma;
       const double p = -(3 * k * s * s + 4 * q * s * s * s) / (mu + 2 * beta * s);
       const double omega = f * p + mu * p * s + k * s * s * s + beta * p * s * s + q * s * s * s * s;
       const double moved = -e * (d1 + 2 * d2 * s) / (6 * k * s + 2 * beta * p + 12 * q * s * s);
-      points.emplace_back(sigma,
-                          made_up(p, omega, alpha * s + B * s * s + gamma * p, e * (d0 + d1 * s + d2 * s * s),
-                                  e * (a0 + a1 * s) + (alpha + 2 * B * s) * moved));
+      points.emplace_back(
+          sigma, made_up(unit * p, omega, alpha * s + B * s * s + gamma * p, e * (d0 + d1 * s + d2 * s * s),
+                         e * (a0 + a1 * s) + (alpha + 2 * B * s) * moved));
     }
     const ResponsePoint cusp = estimated("cusp", made_up(0, 0, 0), points);
     const double p = -e * d1 / mu, s = -(beta * p + e * d2) / (3 * k);
-    CHECK(is_next_to(cusp.parameter_estimate, std::abs(p)));
+    CHECK(is_next_to(cusp.parameter_estimate, unit * std::abs(p)));
     CHECK(is_next_to(cusp.location_estimate, std::abs(e * d0 + f * p)));
     CHECK(is_next_to(cusp.truncation_estimate, std::abs(e * a0 + alpha * s + gamma * p)));
     CHECK_FALSE(cusp.truncation_flagged);
@@ -210,6 +213,9 @@ TEST_CASE("the estimates of a turn are those of a curve that is moved at each fr
   CHECK(is_next_to(turn.parameter_estimate, e * g0));
   CHECK(is_next_to(turn.location_estimate, e * g1 / (2 * a)));
   CHECK(is_next_to(turn.truncation_estimate, std::abs(e * h0)));
+  const auto not_located = estimated("fold", made_up(0, 1, 0), points, false);
+  CHECK(std::isnan(not_located.parameter_estimate));
+  CHECK(std::isnan(not_located.location_estimate));
   points.erase(points.begin() + 2, points.end());  // at an end of a curve
   CHECK(std::isnan(estimated("fold", made_up(0, 1, 0), points).parameter_estimate));
 }
