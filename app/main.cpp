@@ -46,7 +46,7 @@ void tell_faults(const std::string& file, const scene::SceneError& error) {
   }
 }
 
-ExitCode run(int argc, const char* const* argv) {
+ExitCode run_program(int argc, const char* const* argv) {
   std::string scene_file;
   try {
     scene::Catalogue catalogue = studies::catalogue();
@@ -78,5 +78,5 @@ ExitCode run(int argc, const char* const* argv) {
 int main(int argc, char** argv) {
   arcslip::app::hold_standard_streams();
   arcslip::app::watch_signals();
-  return static_cast<int>(arcslip::app::run(argc, argv));
+  return static_cast<int>(arcslip::app::run_program(argc, argv));
 }

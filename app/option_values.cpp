@@ -9,7 +9,7 @@
 namespace arcslip::app {
 namespace {
 
-std::optional<double> number(const std::string& text) {
+std::optional<double> finite_number(const std::string& text) {
   const char* begin = text.data();
   const char* const end = begin + text.size();
   begin += begin != end && *begin == '+' ? 1 : 0;
@@ -25,12 +25,12 @@ std::pair<std::string, double> assignment(const std::string& text) {
   if (equals == std::string::npos || equals == 0)
     throw UsageError("--set " + text + ": give it as name.field=value, such as --set damper.normal_load=3");
   const std::string value = text.substr(equals + 1);
-  if (const auto parsed = number(value)) return {text.substr(0, equals), *parsed};
+  if (const auto parsed = finite_number(value)) return {text.substr(0, equals), *parsed};
   throw UsageError("--set " + text + ": found the value \"" + value + "\", must be a finite number");
 }
 
 std::optional<double> number(const std::string& option, const std::string& text, const std::string& what) {
-  const auto value = number(text);
+  const auto value = finite_number(text);
   if (!text.empty() && !value) throw UsageError(option + " " + text + ": must be " + what);
   return value;
 }
@@ -44,7 +44,7 @@ std::vector<double> numbers(const std::string& option, const std::vector<std::st
 
 std::optional<double> frequency(const std::string& option, const std::string& text) {
   if (text.empty()) return std::nullopt;
-  const auto value = number(text);
+  const auto value = finite_number(text);
   if (!value || *value <= 0)
     throw UsageError(option + " " + text + ": must be a frequency above 0, a finite number");
   return value;
@@ -52,7 +52,7 @@ std::optional<double> frequency(const std::string& option, const std::string& te
 
 std::optional<double> accuracy(const std::string& text) {
   if (text.empty()) return std::nullopt;
-  const auto value = number(text);
+  const auto value = finite_number(text);
   if (!value || !(*value >= scene::finest_accuracy && *value <= scene::coarsest_accuracy))
     throw UsageError("--accuracy " + text + ": must be a number from " +
                      results::shortest(scene::finest_accuracy) + " to " +
@@ -80,8 +80,8 @@ RangeOption parameter_range(const std::string& option, const std::string& text) 
   if (equals == std::string::npos) return {name, std::nullopt};
   const std::string bounds = text.substr(equals + 1);
   const auto colon = bounds.find(':');
-  const auto lower = number(bounds.substr(0, colon));
-  const auto upper = colon == std::string::npos ? std::nullopt : number(bounds.substr(colon + 1));
+  const auto lower = finite_number(bounds.substr(0, colon));
+  const auto upper = colon == std::string::npos ? std::nullopt : finite_number(bounds.substr(colon + 1));
   if (!lower || !upper) {
     throw UsageError(option + " " + text + ": found the range \"" + bounds +
                      "\", must be two finite numbers, lower:upper");

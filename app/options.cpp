@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view exit_codes =
     "Exit codes: 0 done, 1 usage or file, 2 invalid scene, 3 stopped early with partial results written.";
 
-constexpr const char *run = "run", *check = "check", *reduce = "reduce";
+constexpr const char *run_verb = "run", *check_verb = "check", *reduce_verb = "reduce";
 constexpr int most_threads = 1024;
 
 struct Verb {
@@ -41,15 +41,15 @@ std::vector<scene::Key> range_keys(const scene::Catalogue& catalogue) {
 }
 
 std::vector<Verb> verbs_of(const scene::Catalogue& catalogue) {
-  std::vector<Verb> verbs{{run, "run every study of the scene: results and figures"}};
+  std::vector<Verb> verbs{{run_verb, "run every study of the scene: results and figures"}};
   for (const scene::StudyType* type : catalogue.studies)
     verbs.push_back({std::string(type->verb()), std::string(type->help()), type});
   for (scene::Key key : range_keys(catalogue)) {
     key.help += " of frequency responses";
     verbs.front().keys.push_back({key});
   }
-  verbs.push_back({reduce, "write the reduced structure of the scene, and the scene with it"});
-  verbs.push_back({check, "validate the scene and print it with every default"});
+  verbs.push_back({reduce_verb, "write the reduced structure of the scene, and the scene with it"});
+  verbs.push_back({check_verb, "validate the scene and print it with every default"});
   return verbs;
 }
 
@@ -99,7 +99,7 @@ void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts&
   for (KeyOption& option : of.keys) add_key_option(verb, option);
   verb.add_option("--out", options.out,
                   std::string("folder for results and figures (default: ") +
-                      (of.name == run ? "out/<name of the scene file>)" : "none are written)"))
+                      (of.name == run_verb ? "out/<name of the scene file>)" : "none are written)"))
       ->type_name("DIR");
   verb.add_option("--json", options.json, "write results as JSON to a file, or - for standard output")
       ->type_name("FILE|-");
@@ -176,13 +176,13 @@ std::variant<CommandOptions, Information> parse(int argc, const char* const* arg
     if (argc < 2 || each.name != argv[1]) continue;  // its options are not needed
     if (each.type != nullptr) each.keys = options_of(each.type->keys());
     add_scene_options(verb, options, texts);
-    if (each.name == reduce) {
+    if (each.name == reduce_verb) {
       verb->add_option(
               "--out", options.out,
               "folder for the matrices and the scene (default: out/<name of the scene file>_reduced)")
           ->type_name("DIR");
       verb->add_flag("--quiet", options.quiet, "print only errors");
-    } else if (each.name == check)
+    } else if (each.name == check_verb)
       verb->add_flag("--quiet", options.quiet, "print nothing if the scene is valid");
     else
       add_study_options(*verb, each, options, texts);

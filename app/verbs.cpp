@@ -293,7 +293,7 @@ ExitCode reduce(const scene::Scene& scene, const CommandOptions& options) {
   return writing.code(ExitCode::done);
 }
 
-ExitCode run(scene::Scene scene, CommandOptions options) {
+ExitCode run_scene(scene::Scene scene, CommandOptions options) {
   if (scene.studies.empty()) {
     throw UsageError(
         "the scene has no studies, so there is nothing to run: add one to \"studies\", or use "
@@ -322,7 +322,7 @@ ExitCode execute(const CommandOptions& options, const scene::Catalogue& catalogu
   scene::Scene scene = resolve(options, catalogue);
   if (const std::string done = observables::prepare(scene, interrupted); !done.empty() && !options.quiet)
     tell(done);
-  if (options.verb == "run") return run(std::move(scene), options);
+  if (options.verb == "run") return run_scene(std::move(scene), options);
   if (options.verb == "reduce") return reduce(scene, options);
   if (options.type == nullptr) return check(scene, options);
   const scene::Study study = study_of_verb(scene, options);

@@ -40,7 +40,7 @@ double error_of(double amplitude) {
 }
 
 // Of the peaks of a sampled curve, which is slightly ragged, the nearest one counts.
-void response(benchmark::State& state, const scene::Scene& scene) {
+void peak_error(benchmark::State& state, const scene::Scene& scene) {
   std::vector<observables::ResponseBranch> branches;
   bench::measure(state, [&] { branches = observables::frequency_response(scene, range); });
   double error = 1, estimate = 1;
@@ -55,14 +55,14 @@ void response(benchmark::State& state, const scene::Scene& scene) {
 }
 
 void exact(benchmark::State& state) {
-  response(state, bench::paper(static_cast<int>(state.range(0))));
+  peak_error(state, bench::paper(static_cast<int>(state.range(0))));
 }
 
 void sampled(benchmark::State& state) {
   scene::Scene scene = bench::paper(static_cast<int>(state.range(0)));
   scene.harmonics.friction = scene::Friction::sampled;
   scene.harmonics.samples = static_cast<int>(state.range(1));
-  response(state, scene);
+  peak_error(state, scene);
 }
 
 void chosen(benchmark::State& state) {

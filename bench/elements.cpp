@@ -120,25 +120,29 @@ void sampled_element(benchmark::State& state, Example (*make)(), bool jacobian) 
   state.counters["samples"] = samples;
 }
 
-void orders(benchmark::internal::Benchmark* b) {
+void element_orders(benchmark::internal::Benchmark* b) {
   b->ArgName("H")->ArgsProduct({{3, 7, 15, 27, 55}});
 }
 
 constexpr bool with_jacobian = true, force_alone = false;
 
-BENCHMARK_CAPTURE(element, jenkins, jenkins, with_jacobian)->Apply(orders);
-BENCHMARK_CAPTURE(element, gap_spring, gap_spring, with_jacobian)->Apply(orders);
-BENCHMARK_CAPTURE(element, contact_2d, contact_2d, with_jacobian)->Apply(orders);
-BENCHMARK_CAPTURE(element, separating_contact_2d, separating_contact_2d, with_jacobian)->Apply(orders);
-BENCHMARK_CAPTURE(element, contact_3d, contact_3d, with_jacobian)->Apply(orders);
-BENCHMARK_CAPTURE(element, separating_contact_3d, separating_contact_3d, with_jacobian)->Apply(orders);
-BENCHMARK_CAPTURE(element, iwan, iwan, with_jacobian)->Apply(orders);
-BENCHMARK(iwan_table)->Name("element/iwan_table_100")->Apply(orders);
+BENCHMARK_CAPTURE(element, jenkins, jenkins, with_jacobian)->Apply(element_orders);
+BENCHMARK_CAPTURE(element, gap_spring, gap_spring, with_jacobian)->Apply(element_orders);
+BENCHMARK_CAPTURE(element, contact_2d, contact_2d, with_jacobian)->Apply(element_orders);
+BENCHMARK_CAPTURE(element, separating_contact_2d, separating_contact_2d, with_jacobian)
+    ->Apply(element_orders);
+BENCHMARK_CAPTURE(element, contact_3d, contact_3d, with_jacobian)->Apply(element_orders);
+BENCHMARK_CAPTURE(element, separating_contact_3d, separating_contact_3d, with_jacobian)
+    ->Apply(element_orders);
+BENCHMARK_CAPTURE(element, iwan, iwan, with_jacobian)->Apply(element_orders);
+BENCHMARK(iwan_table)->Name("element/iwan_table_100")->Apply(element_orders);
 
-#define ARCSLIP_BESIDE_SAMPLING(law)                                                                 \
-  BENCHMARK_CAPTURE(element, law, law, force_alone)->Name("force/" #law)->Apply(orders);             \
-  BENCHMARK_CAPTURE(sampled_element, law, law, with_jacobian)->Name("sampled/" #law)->Apply(orders); \
-  BENCHMARK_CAPTURE(sampled_element, law, law, force_alone)->Name("sampled_force/" #law)->Apply(orders)
+#define ARCSLIP_BESIDE_SAMPLING(law)                                                                         \
+  BENCHMARK_CAPTURE(element, law, law, force_alone)->Name("force/" #law)->Apply(element_orders);             \
+  BENCHMARK_CAPTURE(sampled_element, law, law, with_jacobian)->Name("sampled/" #law)->Apply(element_orders); \
+  BENCHMARK_CAPTURE(sampled_element, law, law, force_alone)                                                  \
+      ->Name("sampled_force/" #law)                                                                          \
+      ->Apply(element_orders)
 ARCSLIP_BESIDE_SAMPLING(jenkins);
 ARCSLIP_BESIDE_SAMPLING(gap_spring);
 ARCSLIP_BESIDE_SAMPLING(contact_2d);

@@ -62,7 +62,7 @@ void equations(benchmark::State& state, const scene::Scene& scene, bool odd) {
   bench::measure(state, work, bench::calls_to_time(work));
 }
 
-void element(benchmark::State& state) {
+void damper_alone(benchmark::State& state) {
   const At here = at(bench::paper(static_cast<int>(state.range(0))), true);
   const model::NonlinearPart& part = here.problem->model().elements.front();
   const auto element = part.law->element(here.problem->harmonics(), here.problem->sampling());
@@ -84,13 +84,13 @@ void masses(benchmark::State& state) {
   equations(state, beside_masses(static_cast<int>(state.range(0))), true);
 }
 
-void orders(benchmark::internal::Benchmark* b) {
+void equation_orders(benchmark::internal::Benchmark* b) {
   b->ArgName("H")->ArgsProduct({{1, 7, 15, 55}});
 }
 
-BENCHMARK(element)->Name("equations/element")->Apply(orders);
-BENCHMARK(odd)->Name("equations/odd")->Apply(orders);
-BENCHMARK(all)->Name("equations/all")->Apply(orders);
-BENCHMARK(masses)->Name("equations/masses")->Apply(orders);
+BENCHMARK(damper_alone)->Name("equations/element")->Apply(equation_orders);
+BENCHMARK(odd)->Name("equations/odd")->Apply(equation_orders);
+BENCHMARK(all)->Name("equations/all")->Apply(equation_orders);
+BENCHMARK(masses)->Name("equations/masses")->Apply(equation_orders);
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 // The scene of a file with other words in place of one that it has.
 scene::Scene with(const std::string& file, const std::string& word, const std::string& instead) {
-  std::ifstream in(ARCSLIP_SOURCE_DIR "/examples/" + file);
+  std::ifstream in("examples/" + file);
   std::ostringstream all;
   all << in.rdbuf();
   std::string text = all.str();

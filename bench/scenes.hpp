@@ -17,7 +17,7 @@ inline scene::Catalogue catalogue() {
 
 /// examples/NAME/scene.json
 inline scene::Scene example(const std::string& name) {
-  return scene::read_file(ARCSLIP_SOURCE_DIR "/examples/" + name + "/scene.json", catalogue());
+  return scene::read_file("examples/" + name + "/scene.json", catalogue());
 }
 
 /// The oscillator of Al Sayed et al. (2011) with a normal load of 3 N, between 18 and 22 Hz.

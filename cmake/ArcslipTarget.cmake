@@ -1,46 +1,56 @@
 # How every library and program of Arcslip is compiled, and how a library shows its headers.
 
-function(arcslip_compile_options target)
-  target_compile_features(${target} PUBLIC cxx_std_20)
-  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    # False alarms of GCC 12 on "text" + std::string: https://gcc.gnu.org/bugzilla/show_bug.cgi?id=105651
-    target_compile_options(${target} PRIVATE -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
-  endif()
-  if(ARCSLIP_SANITIZE)
-    # A null pointer that is read or written ends with a report of the address sanitizer, and Eigen asserts the alignment
-    # it needs: checks of both at every access would take a third of the time to compile and to run.
-    target_compile_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=address,undefined;-fno-sanitize=null,alignment>
-      $<BUILD_INTERFACE:-fno-sanitize-recover=all;-fno-omit-frame-pointer>)
-    target_link_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=address,undefined>)
-    # What is read before it is set is NaN.
-    target_compile_definitions(${target} PUBLIC $<BUILD_INTERFACE:EIGEN_INITIALIZE_MATRICES_BY_NAN>)
-  endif()
+include(ArcslipFlags)
+
+# Compiled once for all files that reuse it: Eigen and std, which nearly each of them includes, and still includes by name,
+# and that products of matrices are compiled once. No other header of the project, so that a change of one compiles only
+# what includes it.
+set(arcslip_common_headers <Eigen/Core> <Eigen/SparseCore> <algorithm> <cmath> <complex> <functional> <limits> <map>
+  <memory> <optional> <span> <sstream> <stdexcept> <string> <utility> <variant> <vector>
+  <arcslip/continuation/linear/compiled_products.hpp>)
+
+# arcslip_precompiled_headers(NAME [header...]) makes the object library NAME for target_precompile_headers(... REUSE_FROM NAME),
+# which serves targets that are compiled with the same options.
+function(arcslip_precompiled_headers target)
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp CONTENT "")
+  add_library(${target} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
+  target_link_libraries(${target} PRIVATE Eigen3::Eigen)
+  target_include_directories(${target} PRIVATE ${PROJECT_BINARY_DIR}/include/continuation)
+  arcslip_compile_options(${target})
+  target_precompile_headers(${target} PRIVATE ${arcslip_common_headers} ${ARGN})
 endfunction()
 
-# Compiled once for all files of a target: what nearly each of them includes, and still includes by name.
-# arcslip_common_headers(target FROM other): those of a target that is compiled with the same options.
-function(arcslip_common_headers target)
-  cmake_parse_arguments(arg "" "FROM" "" ${ARGN})
-  if(arg_FROM)
-    target_precompile_headers(${target} REUSE_FROM ${arg_FROM})
-    return()
-  endif()
-  target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/SparseCore> <algorithm> <cmath> <complex>
-    <functional> <limits> <memory> <optional> <span> <sstream> <stdexcept> <string> <utility> <variant> <vector> ${ARGN})
+# The sources of a target in batches: one batch is one translation unit, which compiles what its files include, and the
+# templates that they instantiate, once. The files of a batch are of one room, so that names at file level have to be unique
+# in a room of lib, in continuation and in optimize, and not beyond. Where ARCSLIP_UNITY is off, each file is compiled alone.
+set(ARCSLIP_BATCH 96000 CACHE STRING "Bytes of source of a batch, about")
+mark_as_advanced(ARCSLIP_BATCH)
+# arcslip_batch(TARGET NAME source...): these sources of the target, in batches of about the same size.
+function(arcslip_batch target name)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${ARCSLIP_UNITY} UNITY_BUILD_MODE GROUP)
+  set(all 0)
+  foreach(source IN LISTS ARGN)
+    file(SIZE ${source} bytes)
+    math(EXPR all "${all} + ${bytes}")
+  endforeach()
+  math(EXPR batches "${all} / ${ARCSLIP_BATCH} + 1")
+  set(before 0)
+  foreach(source IN LISTS ARGN)
+    math(EXPR batch "${before} * ${batches} / (${all} + 1)")
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${name}_${batch})
+    file(SIZE ${source} bytes)
+    math(EXPR before "${before} + ${bytes}")
+  endforeach()
 endfunction()
 
-# arcslip_library(NAME [HEADERS_FROM other] [COMMON header...] ROOMS room... [LIGHT room or file...] FILES file...)
+# arcslip_library(NAME ROOMS room... [LIGHT room, folder or file...] FILES file... [PUBLIC library...] [PRIVATE library...])
 # makes arcslip_NAME (arcslip::NAME). ROOMS are pairs "link=folder": the folder is seen as <arcslip/link/...>.
-# FILES begin with the link. The headers among them are public and get installed, as is NAME.hpp beside the CMakeLists.txt,
-# the library's umbrella <arcslip/NAME.hpp>; a header that is not listed is private.
-# LIGHT is what computes nothing in loops, which is compiled with -O1 in a third of the time. COMMON are headers of its own to
-# compile once for all files; HEADERS_FROM is the library whose precompiled headers serve this one, too.
-# A precompiled header is cheap where it only declares: each file compiles again what inline functions in it instantiate.
+# FILES begin with the link. The headers among them are public and get installed, as is NAME.hpp next to the CMakeLists.txt,
+# the library's umbrella <arcslip/NAME.hpp>; a header that is not listed is private. PUBLIC and PRIVATE are what it is linked to.
+# LIGHT is what computes nothing in loops, which is compiled with -O1 in a third of the time.
 # Each library has a root of links of its own, so that an include of a library that is not linked does not compile.
 function(arcslip_library name)
-  cmake_parse_arguments(arg "" "HEADERS_FROM" "COMMON;ROOMS;LIGHT;FILES" ${ARGN})
+  cmake_parse_arguments(arg "" "" "ROOMS;LIGHT;FILES;PUBLIC;PRIVATE" ${ARGN})
   set(target arcslip_${name})
   set(root ${PROJECT_BINARY_DIR}/include/${name})
   file(MAKE_DIRECTORY ${root}/arcslip)
@@ -52,8 +62,7 @@ function(arcslip_library name)
   endforeach()
   configure_file(${name}.hpp ${root}/arcslip/${name}.hpp COPYONLY)  # a link to a file would be installed as one
   set(headers ${root}/arcslip/${name}.hpp)
-  set(sources "")
-  set(light "")
+  set(links "")
   foreach(file IN LISTS arg_FILES)
     string(REGEX MATCH "^[^/]+" link ${file})
     if(NOT DEFINED folder_of_${link})
@@ -62,38 +71,40 @@ function(arcslip_library name)
       list(APPEND headers ${root}/arcslip/${file})
     else()
       string(REGEX REPLACE "^[^/]+" "${folder_of_${link}}" path ${file})
-      if(link IN_LIST arg_LIGHT OR file IN_LIST arg_LIGHT)
-        list(APPEND light ${path})
+      string(REGEX REPLACE "/[^/]+$" "" folder ${file})
+      list(APPEND links ${link})
+      if(link IN_LIST arg_LIGHT OR folder IN_LIST arg_LIGHT OR file IN_LIST arg_LIGHT)
+        list(APPEND light_${link} ${path})
       else()
-        list(APPEND sources ${path})
+        list(APPEND heavy_${link} ${path})
       endif()
     endif()
   endforeach()
-  add_library(${target} ${sources})
+  list(REMOVE_DUPLICATES links)
+  add_library(${target})
   add_library(arcslip::${name} ALIAS ${target})
+  add_library(${target}_light OBJECT)
+  foreach(link IN LISTS links)
+    target_sources(${target} PRIVATE ${heavy_${link}})
+    target_sources(${target}_light PRIVATE ${light_${link}})
+    arcslip_batch(${target} ${link} ${heavy_${link}})
+    arcslip_batch(${target}_light ${link} ${light_${link}})
+  endforeach()
   # Nothing asks for the macro that CMake defines in a shared library, and precompiled headers serve several.
   set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "" EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${root} FILES ${headers})
   arcslip_compile_options(${target})
-  set(from_heavy "")
-  set(from_light "")
-  if(arg_HEADERS_FROM)
-    set(from_heavy FROM arcslip_${arg_HEADERS_FROM})
-    if(TARGET arcslip_${arg_HEADERS_FROM}_light)
-      set(from_light FROM arcslip_${arg_HEADERS_FROM}_light)
-    endif()
-  endif()
-  arcslip_common_headers(${target} ${from_heavy} ${arg_COMMON})
-  if(light)
-    add_library(${target}_light OBJECT ${light})
-    set_target_properties(${target}_light PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    target_include_directories(${target}_light PRIVATE ${root})
-    arcslip_compile_options(${target}_light)
-    target_compile_options(${target}_light PRIVATE $<$<CONFIG:Release>:-O1>)
-    arcslip_common_headers(${target}_light ${from_light} ${arg_COMMON})
-    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_light>)
-  endif()
+  target_compile_options(${target} PRIVATE ${arcslip_heavy})
+  target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  target_precompile_headers(${target} REUSE_FROM arcslip_headers)
+  set_target_properties(${target}_light PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(${target}_light PRIVATE ${root})
+  arcslip_compile_options(${target}_light)
+  target_compile_options(${target}_light PRIVATE ${arcslip_light})
+  target_link_libraries(${target}_light PRIVATE ${arg_PUBLIC} ${arg_PRIVATE})
+  target_precompile_headers(${target}_light REUSE_FROM arcslip_headers_light)
+  target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_light>)
   install(TARGETS ${target} EXPORT arcslip
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}

@@ -95,8 +95,8 @@ void read_along(const Reading& reading, OptimumSettings& settings) {
   const Location place = reading.keys.find("along");
   for (const std::string& key : scene::keys_beside(KeyType::followed))
     if (place.node == nullptr && reading.keys.has(key))
-      reading.faults.add(reading.keys.find(key).pointer,
-                         "found the key " + quoted(key) + " without \"along\", whose range it belongs to");
+      reading.faults.add(reading.keys.find(key).pointer, "found the key " + scene::file::quoted(key) +
+                                                             " without \"along\", whose range it belongs to");
   if (place.node == nullptr) return;
   DesignVariable along;
   const scene::Field field = read_parameter(place, reading.parameters, along.name, reading.faults);
@@ -166,16 +166,16 @@ KeysOf<OptimumSettings> keys() {
                        },
                        drop_from}));
   keys.add(of_problem(window(&OptimumProblem::frequency_from, &OptimumProblem::frequency_to)));
-  keys.add(of_search(text("algorithm", &SearchSettings::algorithm, algorithm,
-                          "\"" + std::string(default_algorithm) + "\"", "the NLopt algorithm")));
-  keys.add(of_search(text("local", &SearchSettings::local, algorithm, "",
-                          "the local algorithm of MLSL and AUGLAG, such as LN_BOBYQA")));
+  keys.add(of_search(scene::file::text("algorithm", &SearchSettings::algorithm, algorithm,
+                                       "\"" + std::string(default_algorithm) + "\"", "the NLopt algorithm")));
+  keys.add(of_search(scene::file::text("local", &SearchSettings::local, algorithm, "",
+                                       "the local algorithm of MLSL and AUGLAG, such as LN_BOBYQA")));
   keys.add(of_search(whole("evaluations", &SearchSettings::evaluations, 1, largest_search,
                            "maximum number of design evaluations")));
-  keys.add(of_search(
-      number(&SearchSettings::seconds,
-             {.name = "seconds", .unit = "s", .lower = 0, .upper = std::numeric_limits<double>::infinity()},
-             "time limit of the search; 0: no limit")));
+  keys.add(of_search(scene::file::number(
+      &SearchSettings::seconds,
+      {.name = "seconds", .unit = "s", .lower = 0, .upper = std::numeric_limits<double>::infinity()},
+      "time limit of the search; 0: no limit")));
   keys.add(of_search(whole("population", &SearchSettings::population, 0, largest_search,
                            "population size of stochastic algorithms; 0: their default")));
   keys.add(of_search(whole("seed", &SearchSettings::seed, 0, largest_search,

@@ -8,13 +8,13 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double empty_step = 1e-14;  // relative arclength: two points at one place
-void reverse(Point& point) {
+void reverse_point(Point& point) {
   point.tangent = -point.tangent;
   point.arclength = -point.arclength;
 }
 
-void reverse(Event& event) {
-  reverse(event.point);
+void reverse_event(Event& event) {
+  reverse_point(event.point);
   if (auto* kink = std::get_if<Kink>(&event.data)) {
     std::swap(kink->before, kink->after);
     kink->before = -kink->before;
@@ -46,8 +46,8 @@ void shift(Branch& branch, double arclength) {
 void reverse(Branch& branch) {
   std::reverse(branch.points.begin(), branch.points.end());
   std::reverse(branch.events.begin(), branch.events.end());
-  for (Point& point : branch.points) reverse(point);
-  for (Event& event : branch.events) reverse(event);
+  for (Point& point : branch.points) reverse_point(point);
+  for (Event& event : branch.events) reverse_event(event);
 }
 
 void append(Branch& branch, Branch&& next) {

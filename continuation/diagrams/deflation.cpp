@@ -13,8 +13,8 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double smallest_share = 1.0 / 1024;  // of a step, if the problem cannot be evaluated further out
-constexpr double displacement = 1e-2;          // from a known solution, relative to 1 + |u|
+constexpr double shortest_step = 1.0 / 1024;   // of a step, if the problem cannot be evaluated further out
+constexpr double start_displacement = 1e-2;    // from a known solution, relative to 1 + |u|
 constexpr double golden = 0.6180339887498949;  // the limit of the steps varies, so that they do not cycle
 constexpr double limit_range = 0.5;            // of itself
 constexpr double limits[] = {1, 0.25, 4};      // of the steps, times largest_step: one attempt with each
@@ -95,7 +95,7 @@ void Deflation::log_gradient(const Vector& u) {
 
 // Moves by step_, or by the part of it at which the problem can be evaluated.
 bool Deflation::go(Vector& u) {
-  for (double share = 1; share >= smallest_share; share /= 2) {
+  for (double share = 1; share >= shortest_step; share /= 2) {
     trial_ = u + share * step_;
     if (!evaluate(trial_, Needs::jacobian)) continue;
     u = trial_;
@@ -143,8 +143,8 @@ Vector aside(Deflation& in, Eigen::Index n, const Vector& scales) {
   return v / in.norm(v);
 }
 
-void check(const Problem& problem, const Vector& p, const std::vector<Vector>& known,
-           const std::vector<Vector>& guesses, const DeflationOptions& options) {
+void check_input(const Problem& problem, const Vector& p, const std::vector<Vector>& known,
+                 const std::vector<Vector>& guesses, const DeflationOptions& options) {
   const auto n = problem.size();
   if (p.size() != static_cast<Eigen::Index>(problem.parameters().size()))
     throw std::invalid_argument(std::to_string(p.size()) + " parameters are given, the problem has " +
@@ -173,7 +173,7 @@ void check(const Problem& problem, const Vector& p, const std::vector<Vector>& k
 
 std::vector<Vector> deflate(const Problem& problem, const Vector& p, const std::vector<Vector>& known,
                             const std::vector<Vector>& guesses, const DeflationOptions& options) {
-  check(problem, p, known, guesses, options);
+  check_input(problem, p, known, guesses, options);
   Deflation deflation(problem, p, known, options);
   const Vector way = aside(deflation, problem.size(), problem.scales());
   std::vector<Vector> found;
@@ -183,7 +183,7 @@ std::vector<Vector> deflate(const Problem& problem, const Vector& p, const std::
         if (static_cast<int>(found.size()) >= options.solutions) return found;
         const bool moved = deflation.is_known(guess);
         if (!moved && side < 0) break;
-        const double distance = moved ? side * displacement * (1 + deflation.norm(guess)) : 0;
+        const double distance = moved ? side * start_displacement * (1 + deflation.norm(guess)) : 0;
         std::optional<Vector> solution;
         for (const double limit : limits)
           if (!solution) solution = deflation.solve(guess + distance * way, limit * options.largest_step);

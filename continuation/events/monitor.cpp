@@ -90,7 +90,7 @@ std::optional<Vector> second_along(const Accepted& now, const Vector& v) try {
 // With B = [J F_p; r^T], whose tangent at the fold is t = (v, 0): B^T (w, 0) = e_{n+1}, and by
 // differentiating F(u(s), p(s)) = 0 twice, J u'' + F_p p'' = -F_uu v v, so that p'' is the last entry of
 // -B^-1 (F_uu v v, 0), which is -w . F_uu v v.
-EventData describe(const Accepted& now) {
+EventData describe_fold(const Accepted& now) {
   const Eigen::Index n = now.u.size();
   Fold fold;
   fold.right_null = now.tangent.head(n);
@@ -120,7 +120,7 @@ Monitor fold_monitor() {
   monitor.value = [](const Accepted& now) { return now.tangent[now.tangent.size() - 1]; };
   monitor.quantity = [](const Accepted& now) { return now.parameter; };
   monitor.quantity_is_parameter = true;
-  monitor.describe = describe;
+  monitor.describe = describe_fold;
   monitor.at_branch_points = false;
   return monitor;
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int shorter_differences = 4;
 
-double difference_step(double x, double scale) {
+double central_step(double x, double scale) {
   return std::cbrt(2.2e-16) * std::max(std::abs(x), scale);
 }
 
@@ -113,7 +113,7 @@ class FunctionEvaluator final : public Evaluator, private Operator {
       x = at;
       return F.allFinite();
     };
-    double h = difference_step(at, scale);
+    double h = central_step(at, scale);
     for (int k = 0; k < shorter_differences; ++k, h /= 16) {
       const bool above = residual(h, plus_), below = residual(-h, minus_);
       if (above && below) {

@@ -13,15 +13,15 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double smallest_distance = 1e-7;  // of two branches, relative, that Newton's method resolves
-constexpr double displacement = 1e-9;       // relative, over which F changes by rounding only
+constexpr double smallest_distance = 1e-7;      // of two branches, relative, that Newton's method resolves
+constexpr double rounding_displacement = 1e-9;  // relative, over which F changes by rounding only
 constexpr int displacements = 8;
-constexpr double divergence = 2;         // of Newton's corrections, from one to the next
-constexpr double double_point = 1e-8;    // distance in scales from a further rank loss of A
-constexpr double rounding = 1e-14;       // of a correction, relative: converged
-constexpr double rounding_safety = 20;   // times the spread of repeated evaluations
-constexpr double smallest_share = 1e-9;  // ratio of the form's eigenvalues: their error
-constexpr double smallest_slope = 1e-6;  // dp/ds != 0, in scales
+constexpr double newton_divergence = 2;    // of Newton's corrections, from one to the next
+constexpr double double_point = 1e-8;      // distance in scales from a further rank loss of A
+constexpr double newton_rounding = 1e-14;  // of a correction, relative: converged
+constexpr double rounding_safety = 20;     // times the spread of repeated evaluations
+constexpr double eigenvalue_error = 1e-9;  // ratio of the form's eigenvalues: their error
+constexpr double smallest_slope = 1e-6;    // dp/ds != 0, in scales
 
 // Whether the equations are regular: a change of F of size b_0, that of its quadratic terms at distances of 1
 // in scales, moves x by less than 1 / double_point. If A loses another rank, a point that Newton's method
@@ -51,10 +51,10 @@ bool newton(Evaluator& at, LinearSolver& solver, const Vector& p, const Vector& 
     v += dv;
     if (converged) return v.allFinite();
     const double now = dv.cwiseQuotient(scale).norm() / std::max(1.0, v.cwiseQuotient(scale).norm());
-    if (!std::isfinite(now) || (k > 1 && now > divergence * before)) return false;
+    if (!std::isfinite(now) || (k > 1 && now > newton_divergence * before)) return false;
     const bool stagnates = k > 0 && now > 0.5 * before && now <= options.rounding_level;
     converged = now <= options.tolerance || stagnates;
-    if (now <= rounding) return true;
+    if (now <= newton_rounding) return true;
     before = now;
   }
   return false;
@@ -70,7 +70,7 @@ double rounding_of_beta(const Problem& problem, Vector p, int along, const Vecto
   Vector beside(n + 1), correction(n + 2);
   for (int k = 0; k < displacements; ++k) {
     for (Eigen::Index i = 0; i <= n; ++i)
-      beside[i] = x[i] + displacement * std::sin(1.0 + 7.0 * static_cast<double>(i) + 3.0 * k) *
+      beside[i] = x[i] + rounding_displacement * std::sin(1.0 + 7.0 * static_cast<double>(i) + 3.0 * k) *
                              std::max(std::abs(x[i]), 1e-3 * scale[i]);
     p[along] = beside[n];
     if (at->move_to(beside.head(n), p, Needs::residual) != Evaluated::ok) continue;
@@ -147,7 +147,7 @@ std::optional<BranchPoint> describe_branch_point(const Problem& problem, int alo
   const SymmetricModes form = symmetric_modes(at.null_space.form);
   const double negative = form.values[0], positive = form.values[1];
   const double larger = std::max(positive, -negative), smaller = std::min(positive, -negative);
-  if (!(smaller > smallest_share * larger)) return {};
+  if (!(smaller > eigenvalue_error * larger)) return {};
   const double parameter_scale = problem.parameters()[static_cast<std::size_t>(along)].change();
 
   BranchPoint point;

@@ -13,13 +13,13 @@
 namespace arcslip::continuation {
 namespace {
 
-struct Definition {
+struct BranchPointDefinition {
   InnerProblem inner;
   Vector unfolding;
 };
 
 // A generic vector with a broad spectrum, orthogonal to no symmetry or mode of vibration.
-Vector generic(Eigen::Index size, double phase) {
+Vector generic_vector(Eigen::Index size, double phase) {
   Vector c(size);
   for (Eigen::Index i = 0; i < size; ++i) {
     const auto x = static_cast<double>(i);
@@ -30,7 +30,7 @@ Vector generic(Eigen::Index size, double phase) {
 
 class BranchPointEvaluator final : public Evaluator, public Operator {
  public:
-  explicit BranchPointEvaluator(std::shared_ptr<const Definition> definition)
+  explicit BranchPointEvaluator(std::shared_ptr<const BranchPointDefinition> definition)
       : definition_(std::move(definition)),
         n_(definition_->inner.size()),
         here_(definition_->inner),
@@ -45,12 +45,13 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
         g_(2),
         R_(n_ + 2),
         w_(n_ + 2),
-        b_(generic(n_, 1.0)),
+        b_(generic_vector(n_, 1.0)),
         dp_(definition_->inner.problem->parameters().size()),
         dg_dp_(dp_.size(), 2),
         work_(n_ + 2),
         jacobian_(static_cast<const Operator*>(this)) {
-    C_ << generic(n_ + 1, 0.5).cwiseQuotient(scale_), generic(n_ + 1, 2.0).cwiseQuotient(scale_);
+    C_ << generic_vector(n_ + 1, 0.5).cwiseQuotient(scale_),
+        generic_vector(n_ + 1, 2.0).cwiseQuotient(scale_);
   }
 
   // Borders are updated to the null space with each Jacobian and fixed in between: residuals near a
@@ -200,7 +201,7 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
     derivative(d.head(n_ + 1), *factors_.now(), y.tail(2));
   }
 
-  std::shared_ptr<const Definition> definition_;
+  std::shared_ptr<const BranchPointDefinition> definition_;
   Eigen::Index n_;
   Site here_;
   mutable Neighbours beside_;
@@ -309,8 +310,8 @@ std::shared_ptr<const Problem> branch_points(std::shared_ptr<const Problem> prob
   if (unfolding.size() != given(problem)->size())
     throw std::invalid_argument("the direction of unfolding has " + std::to_string(unfolding.size()) +
                                 " entries for " + std::to_string(problem->size()) + " equations");
-  const auto definition = std::make_shared<const Definition>(
-      Definition{{std::move(problem), along, std::move(make_solver)}, std::move(unfolding)});
+  const auto definition = std::make_shared<const BranchPointDefinition>(
+      BranchPointDefinition{{std::move(problem), along, std::move(make_solver)}, std::move(unfolding)});
   return augmented(
       {definition, &definition->inner}, Vector::Ones(1),
       [definition] { return std::make_unique<BranchPointEvaluator>(definition); },

@@ -13,14 +13,14 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr int iterations = 12;
-constexpr double converged = 1e-12;         // of a correction of x in scales, relative to 1 + |u|
-constexpr double smallest_distance = 1e-7;  // of branches, relative, that are not resolved
-constexpr double smallest_share = 1e-6;     // ratio of the smallest to the largest singular value of the form
-constexpr double sphere = 1e-2;             // r, relative to 1 + |u|: where the branches are found
-constexpr double zero = 1e-12;              // of the forms on the sphere, relative
-constexpr double isolated = 1e-4;           // of r: the least singular value at a zero, relative
-constexpr double same_zero = 1e-3;          // closer zeros of the forms are the same
-constexpr double opposite = 0.99;           // cosine of two half-branches of one branch
+constexpr double converged_at = 1e-12;     // of a correction of x in scales, relative to 1 + |u|
+constexpr double least_separation = 1e-7;  // of branches, relative, that are not resolved
+constexpr double singular_share = 1e-6;    // ratio of the smallest to the largest singular value of the form
+constexpr double sphere = 1e-2;            // r, relative to 1 + |u|: where the branches are found
+constexpr double zero_of_forms = 1e-12;    // of the forms on the sphere, relative
+constexpr double isolated = 1e-4;          // of r: the least singular value at a zero, relative
+constexpr double same_zero = 1e-3;         // closer zeros of the forms are the same
+constexpr double opposite = 0.99;          // cosine of two half-branches of one branch
 constexpr int newton_steps = 60;
 
 // Reproducible pseudorandom numbers in [-1, 1].
@@ -139,7 +139,7 @@ std::optional<std::vector<Vector>> zeros(const Forms& forms, Eigen::Index k, dou
     bool reached = false;
     for (int step = 0; step < newton_steps && !reached; ++step) {
       g << forms.value(y, r), 0;
-      reached = g.norm() <= zero * forms.size();
+      reached = g.norm() <= zero_of_forms * forms.size();
       const Vector dy = solve(forms.gradient(y, r), g);
       if (!dy.allFinite()) break;
       y -= dy / std::max(1.0, 2 * dy.norm());
@@ -220,17 +220,17 @@ std::optional<MultiplePoint> locate_multiple_point(const Problem& problem, const
   for (int step = 0; step < iterations && !done; ++step) {
     if (!reduction.move_to(x)) return {};
     if (!reduction.settle().allFinite() || !reduction.move_to(reduction.x()) || !reduction.form(H)) return {};
-    const LeastSquares found = least_squares(H, stacked(), smallest_share);
+    const LeastSquares found = least_squares(H, stacked(), singular_share);
     if (found.rank < m + 1) return {};
     const Vector y = found.X;
     x = reduction.x() + reduction.right() * y;
     if (!((x - guess).cwiseQuotient(reduction.scales()).norm() <= reach)) return {};
-    done = y.norm() <= converged * (1 + reduction.size());
+    done = y.norm() <= converged_at * (1 + reduction.size());
   }
   if (!reduction.move_to(x)) return {};
   const Vector beta = reduction.settle();
   if (!beta.allFinite() || !reduction.move_to(reduction.x()) || !reduction.form(H)) return {};
-  const double distance = smallest_distance * (1 + reduction.size());
+  const double distance = least_separation * (1 + reduction.size());
   if (!(stacked().norm() <= H.norm() * distance && beta.norm() <= H.norm() * distance * distance)) return {};
 
   const auto directions = half_branches(reduction);

@@ -14,13 +14,13 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr int adaptions = 3;          // of C and W to the null spaces of one place
-constexpr int corrections = 60;       // chord steps, at most
-constexpr double rounding = 1e-15;    // of a correction in scales, relative
-constexpr double stagnation = 1e-12;  // of corrections that shrink no more: rounding
-constexpr double divergence = 2;      // of corrections, from one to the next
+constexpr int adaptions = 3;              // of C and W to the null spaces of one place
+constexpr int corrections = 60;           // chord steps, at most
+constexpr double chord_rounding = 1e-15;  // of a correction in scales, relative
+constexpr double stagnation = 1e-12;      // of corrections that shrink no more: rounding
+constexpr double chord_divergence = 2;    // of corrections, from one to the next
 
-Matrix generic(Eigen::Index rows, Eigen::Index columns, double phase) {
+Matrix generic_matrix(Eigen::Index rows, Eigen::Index columns, double phase) {
   Matrix result(rows, columns);
   for (Eigen::Index j = 0; j < columns; ++j)
     for (Eigen::Index i = 0; i < rows; ++i) {
@@ -49,10 +49,10 @@ Reduction::Reduction(const Problem& problem, const Vector& p, int along, int ran
       rhs_(n_ + 1 + m_),
       C_(n_ + 1, m_ + 1),
       V_(n_ + 1, m_ + 1),
-      W_(orthonormal_columns(generic(n_, m_, 1.0))),
+      W_(orthonormal_columns(generic_matrix(n_, m_, 1.0))),
       G_(m_, m_ + 1) {
   scale_ << problem.scales(), problem.parameters()[static_cast<std::size_t>(along)].scale;
-  C_ = scale_.cwiseInverse().asDiagonal() * orthonormal_columns(generic(n_ + 1, m_ + 1, 0.5));
+  C_ = scale_.cwiseInverse().asDiagonal() * orthonormal_columns(generic_matrix(n_ + 1, m_ + 1, 0.5));
 }
 
 bool Reduction::evaluate(const Vector& x, Needs needs) try {
@@ -68,7 +68,7 @@ bool Reduction::factorize() try {
   if (!M_) M_ = suitable_solver(at_->jacobian());
   // F_p may vanish here, for instance by symmetry: a zero column spoils the scaling of M. A column of W is
   // added to it, which changes the unknowns beta by a multiple of dp.
-  apply(at_->jacobian(), generic(n_, 1, 3.0).col(0).normalized(), rhs_.head(n_));
+  apply(at_->jacobian(), generic_matrix(n_, 1, 3.0).col(0).normalized(), rhs_.head(n_));
   shift_ = std::max(rhs_.head(n_).norm(), F_p_.norm());
   magnitude_ = W_.col(0).cwiseAbs().dot(rhs_.head(n_).cwiseAbs() + F_p_.cwiseAbs()) + 0.1 * shift_;
   if (shift_ == 0) shift_ = 1;
@@ -171,8 +171,8 @@ Vector Reduction::beta(const Vector& y, Vector& place) {
     found += rhs_.tail(m_);
     const double now = rhs_.head(n_ + 1).cwiseQuotient(scale_).norm() / std::max(1.0, size());
     if (!std::isfinite(now)) return none;
-    if (now <= rounding || (k > 0 && now > 0.5 * before && before <= stagnation)) return found;
-    if (k > 1 && now > divergence * before) return none;
+    if (now <= chord_rounding || (k > 0 && now > 0.5 * before && before <= stagnation)) return found;
+    if (k > 1 && now > chord_divergence * before) return none;
     before = now;
   }
   return none;
@@ -180,9 +180,10 @@ Vector Reduction::beta(const Vector& y, Vector& place) {
 
 namespace {
 
-constexpr double radius = 1e-3;  // relative to 1 + |u|: of the circle on which solutions are looked for
-constexpr double rounding_of_beta = 1e-13;  // there, in the size of its terms
-constexpr int places = 7;                   // on the circle
+constexpr double circle_radius =
+    1e-3;  // relative to 1 + |u|: of the circle on which solutions are looked for
+constexpr double beta_rounding = 1e-13;  // there, in the size of its terms
+constexpr int places = 7;                // on the circle
 
 }  // namespace
 
@@ -191,12 +192,12 @@ std::string doubt_of_isolation(const Problem& problem, const Vector& v, const Ve
   Reduction reduction(problem, p, along, 1, make_solver);
   if (!reduction.move_to(v) || !reduction.settle().allFinite() || !reduction.move_to(reduction.x()))
     return {};
-  const double r = radius * (1 + reduction.size());
+  const double r = circle_radius * (1 + reduction.size());
   Vector place;
   for (int k = 0; k < places; ++k) {
     const double angle = 0.3 + 2 * std::numbers::pi * k / places;
     const Vector beta = reduction.beta(r * Vector{{std::cos(angle), std::sin(angle)}}, place);
-    if (!(std::abs(beta[0]) <= rounding_of_beta * reduction.magnitude() * r)) return {};
+    if (!(std::abs(beta[0]) <= beta_rounding * reduction.magnitude() * r)) return {};
   }
   return "; the solutions here are not isolated: [J F_p] has a two-dimensional null space along the branch, "
          "for instance due to a continuous symmetry (rotations, time shifts): add a phase condition";

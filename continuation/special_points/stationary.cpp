@@ -12,7 +12,7 @@
 namespace arcslip::continuation {
 namespace {
 
-struct Definition {
+struct StationaryDefinition {
   InnerProblem inner;
   StationaryQuantity quantity;
 
@@ -29,7 +29,7 @@ struct Definition {
 
 class StationaryEvaluator final : public Evaluator, public Operator {
  public:
-  explicit StationaryEvaluator(std::shared_ptr<const Definition> definition)
+  explicit StationaryEvaluator(std::shared_ptr<const StationaryDefinition> definition)
       : definition_(std::move(definition)),
         n_(definition_->inner.size()),
         here_(definition_->inner),
@@ -182,7 +182,7 @@ class StationaryEvaluator final : public Evaluator, public Operator {
     y[n_] = transposed_ ? G_x_.dot(d) : along(d, *factors_.now());
   }
 
-  std::shared_ptr<const Definition> definition_;
+  std::shared_ptr<const StationaryDefinition> definition_;
   Eigen::Index n_;
   Site here_;
   mutable Neighbours beside_;
@@ -278,8 +278,8 @@ const StationaryEvaluator& stationary(const Accepted& now) {
 
 std::shared_ptr<const Problem> stationary_points(std::shared_ptr<const Problem> problem, int along,
                                                  StationaryQuantity quantity, MakeLinearSolver make_solver) {
-  const auto definition = std::make_shared<const Definition>(
-      Definition{{std::move(problem), along, std::move(make_solver)}, std::move(quantity)});
+  const auto definition = std::make_shared<const StationaryDefinition>(
+      StationaryDefinition{{std::move(problem), along, std::move(make_solver)}, std::move(quantity)});
   return augmented(
       {definition, &definition->inner}, {},
       [definition] { return std::make_unique<StationaryEvaluator>(definition); },

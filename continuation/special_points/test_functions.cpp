@@ -16,7 +16,7 @@ namespace {
 
 constexpr double well_within = 1e-2;  // a piece: of the distance over which it reaches
 
-struct Definition {
+struct ZeroDefinition {
   InnerProblem inner;
   TestFunctions functions;
 
@@ -26,7 +26,7 @@ struct Definition {
 // A place of F and g, without the Jacobian of F.
 class Place {
  public:
-  explicit Place(const Definition& definition)
+  explicit Place(const ZeroDefinition& definition)
       : along_(definition.inner.along),
         n_(definition.inner.size()),
         evaluator_(definition.inner.problem->evaluator()),
@@ -54,7 +54,7 @@ class Place {
 
 class ZeroEvaluator final : public Evaluator, public Operator {
  public:
-  explicit ZeroEvaluator(std::shared_ptr<const Definition> definition)
+  explicit ZeroEvaluator(std::shared_ptr<const ZeroDefinition> definition)
       : definition_(std::move(definition)),
         n_(definition_->inner.size()),
         m_(1 + definition_->further()),
@@ -186,7 +186,7 @@ class ZeroEvaluator final : public Evaluator, public Operator {
     along(d, y.tail(m_));
   }
 
-  std::shared_ptr<const Definition> definition_;
+  std::shared_ptr<const ZeroDefinition> definition_;
   Eigen::Index n_, m_;
   TestFunction g_of_;
   Place here_;
@@ -282,8 +282,8 @@ std::shared_ptr<const Problem> test_function_zeros(std::shared_ptr<const Problem
                                                    TestFunctions functions, MakeLinearSolver make_solver) {
   if (!(functions.scales.array() > 0).all() || !functions.scales.allFinite())
     throw std::invalid_argument("the scales of the further unknowns must be positive");
-  const auto definition = std::make_shared<const Definition>(
-      Definition{{std::move(problem), along, std::move(make_solver)}, std::move(functions)});
+  const auto definition = std::make_shared<const ZeroDefinition>(
+      ZeroDefinition{{std::move(problem), along, std::move(make_solver)}, std::move(functions)});
   return augmented(
       {definition, &definition->inner}, definition->functions.scales,
       [definition] { return std::make_unique<ZeroEvaluator>(definition); },

@@ -25,10 +25,10 @@ int longest_chord(const Jacobian& J) {
 }
 
 constexpr double smallest_damping = 1.0 / 256;
-constexpr double undamped = 1e-2;        // smaller corrections are not damped, and tested at the next point
-constexpr double divergence = 2;         // of such corrections, from one to the next
-constexpr double linear_share = 1e-2;    // of a small Newton correction in the next one: not quadratic
-constexpr double surely_within = 1e-13;  // smaller corrections are not looked at for kinks
+constexpr double undamped = 1e-2;          // smaller corrections are not damped, and tested at the next point
+constexpr double undamped_divergence = 2;  // of such corrections, from one to the next
+constexpr double linear_share = 1e-2;      // of a small Newton correction in the next one: not quadratic
+constexpr double surely_within = 1e-13;    // smaller corrections are not looked at for kinks
 constexpr double smallest_relevant_state = 1e-6;      // in scales: below this, corrections are absolute
 constexpr double smallest_relevant_parameter = 1e-3;  // of its scale: below, corrections of p are absolute
 }  // namespace
@@ -317,7 +317,7 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
     if (!std::isfinite(now)) return failed();
     if (k > 0 && before > 0 && before < undamped && now > linear_share * before) result.linear = true;
     if (now < undamped) {
-      if (k > 0 && before > 0 && before < undamped && now > divergence * before) return failed();
+      if (k > 0 && before > 0 && before < undamped && now > undamped_divergence * before) return failed();
       v += dv_;
       before = now;
       continue;

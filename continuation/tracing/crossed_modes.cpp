@@ -13,9 +13,8 @@ constexpr Eigen::Index all_modes = 24;  // up to this size all are computed
 constexpr Eigen::Index block_size = 3;  // of the Krylov space: modes that cross zero at the same point
 constexpr double quiet = 0.2;           // of B_1^-1 B_m - 1: below this no mode crosses zero
 constexpr double dependent = 1e-8;      // of a column, left by the others
-constexpr double zero = 1e-6;           // of a mode at the second point, in its value in the middle
+constexpr double zero_mode = 1e-6;      // of a mode at the second point, in its value in the middle
 constexpr double nearly_real = 1e-4;    // of an eigenvalue: double ones are split by rounding
-constexpr double pair_safety = 8;       // times the measured bend of a mode, as for slopes of quantities
 
 // The independent columns of `block`, orthonormalized against Q and each other.
 Matrix orthonormal_beside(const Matrix& Q, const Matrix& block) {
@@ -130,11 +129,11 @@ std::optional<CrossedModes> ModeCounter::between(const CurvePoint& from, const C
   const Matrix middle = Q_.transpose() * Y_;
   const Modes modes = continuation::modes(middle);
   if (modes.values.size() == 0) return {};
-  result.at_zero = modes.values.cwiseAbs().maxCoeff() > 1 / zero;
+  result.at_zero = modes.values.cwiseAbs().maxCoeff() > 1 / zero_mode;
   if (result.at_zero) return result;
   if (!evaluate(from.v, from.piece) || !multiply(Q_, Y_)) return {};
   const Matrix first = Q_.transpose() * Y_;
-  if (modes.values.cwiseAbs().minCoeff() < zero)  // the middle is such a place
+  if (modes.values.cwiseAbs().minCoeff() < zero_mode)  // the middle is such a place
     result.count = negative(eigenvalues(first));
   else
     result.count = negative(modes.values) + negative(eigenvalues(solve(middle, first)));

@@ -22,6 +22,9 @@
 
 namespace arcslip::continuation {
 
+/// Times the measured bend of a mode, or of the slope of a quantity.
+inline constexpr double pair_safety = 8;
+
 struct CrossedModes {
   int count = 0;
   bool told = true;      // false: a mode is curved enough to cross zero and return

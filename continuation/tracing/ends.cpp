@@ -9,7 +9,7 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double least_power = 0.1;  // of the distance from a bound: u converges at least like this power
-constexpr int samples = 16;          // of a step that may cross a bound between its ends
+constexpr int samples_of_step = 16;  // of a step that may cross a bound between its ends
 constexpr int window_bisections = 50;
 
 }  // namespace
@@ -28,8 +28,8 @@ std::optional<Exit> leaves(const Window& window, const CurvePoint& from, const C
   if (p1 == p_end && t0 * t1 >= 0) return {};
   if (straight) return Exit{(p_end - p0) / (p1 - p0), p_end};
   double inside = 0;
-  for (int k = 1; k <= samples; ++k) {
-    const double share = static_cast<double>(k) / samples, at = k == samples ? p1 : p(share);
+  for (int k = 1; k <= samples_of_step; ++k) {
+    const double share = static_cast<double>(k) / samples_of_step, at = k == samples_of_step ? p1 : p(share);
     const double bound = inside_of(at);
     if (at == bound) {
       inside = share;
@@ -124,7 +124,7 @@ std::optional<BranchStop> limit_reached(const Options& options, const Branch& br
 namespace {
 
 constexpr int home_bisections = 30;
-constexpr double beside = 0.05;        // of a step: a start this close may lie on it
+constexpr double near_step = 0.05;     // of a step: a start this close may lie on it
 constexpr double rounding_share = 10;  // of the corrector's: closer solutions are the same
 
 }  // namespace
@@ -134,7 +134,8 @@ bool may_close(const Corrector& in, const CurvePoint& start, const CurvePoint& f
   if (from.arclength == 0) return false;
   const auto ahead = [&](const Vector& place) { return in.dot(start.v - place, start.tangent); };
   double lower = 0, upper = 1, a = ahead(from.v), b = ahead(to.v);
-  if (!(a > 0 && b <= beside * length) || distance(in, from.v, start.v) > (1 + beside) * length) return false;
+  if (!(a > 0 && b <= near_step * length) || distance(in, from.v, start.v) > (1 + near_step) * length)
+    return false;
   if (in.dot(start.tangent, to.tangent) < std::cos(largest_angle)) return false;
   v = to.v;
   for (int k = 0; k < home_bisections && b < 0; ++k) {
@@ -144,7 +145,7 @@ bool may_close(const Corrector& in, const CurvePoint& start, const CurvePoint& f
     (at > 0 ? lower : upper) = middle;
     (at > 0 ? a : b) = at;
   }
-  return distance(in, v, start.v) <= beside * length;
+  return distance(in, v, start.v) <= near_step * length;
 }
 
 double closing_tolerance(const Corrector& in, const CurvePoint& start, double rounding_level) {

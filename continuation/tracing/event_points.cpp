@@ -14,7 +14,7 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double guesses[] = {0.5, 0.1, 0.9};         // shares of a step: initial guesses of branch points
+constexpr double guess_shares[] = {0.5, 0.1, 0.9};    // shares of a step: initial guesses of branch points
 constexpr int most_kinks = 16;                        // in one step
 constexpr double just_beyond[] = {1e-9, 1e-6, 1e-3};  // of a step: distances to the far side of a kink
 constexpr double just_before = 1e-9;                  // of a step: distance to the near side of a kink,
@@ -51,7 +51,7 @@ std::optional<LocatedEvent> EventLocator::crossing_event(const CurvePoint& from,
 
 std::optional<LocatedEvent> EventLocator::branch_point(const CurvePoint& from, const CurvePoint& to) {
   Vector beside(from.v.size());
-  for (const double guess : guesses) {
+  for (const double guess : guess_shares) {
     hermite(from.v, from.tangent, to.v, to.tangent, to.arclength - from.arclength, guess, beside);
     std::optional<BranchPointLocation> crossing;
     try {
@@ -72,7 +72,7 @@ std::optional<LocatedEvent> EventLocator::multiple_point(const CurvePoint& from,
   Corrector& probe = this->probe();
   const Vector chord = to.v - from.v;
   Vector beside(from.v.size());
-  for (const double guess : guesses) {
+  for (const double guess : guess_shares) {
     hermite(from.v, from.tangent, to.v, to.tangent, length, guess, beside);
     std::optional<MultiplePoint> crossing;
     try {

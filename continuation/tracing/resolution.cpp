@@ -1,5 +1,7 @@
 #include <arcslip/continuation/tracing/resolution.hpp>
 
+#include <arcslip/continuation/tracing/crossed_modes.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,9 +9,9 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double pair_safety = 8, extremum_safety = 2;  // times the measured bend of a slope
-constexpr double unresolved_share = 1.0 / 50;           // of the step first found unresolved: minimum
-constexpr double quantity_rounding = 1e-9;  // relative changes of a quantity below this are ignored
+constexpr double extremum_safety = 2;          // times the measured bend of a slope
+constexpr double unresolved_share = 1.0 / 50;  // of the step first found unresolved: minimum
+constexpr double quantity_rounding = 1e-9;     // relative changes of a quantity below this are ignored
 constexpr double middle_share = 0.7;  // of the maximum error of the curve: its value in the middle of a step
 constexpr double smallest_relevant_curve = 1e-6;  // |u| in scales: below, the curve's error is absolute
 constexpr double unknown_curve_error = 1 / 0.3;   // where the problem cannot be evaluated in the middle

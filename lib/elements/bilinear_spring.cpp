@@ -6,9 +6,7 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-constexpr scene::Field all_fields[] = {
+constexpr scene::Field bilinear_spring_fields[] = {
     {.name = "stiffness",
      .unit = "N/m",
      .lower = -infinity,
@@ -34,7 +32,9 @@ class BilinearSpring final : public scene::file::KeyedPart<BilinearSpringOptions
   BilinearSpring() : KeyedPart(bilinear_options()) {}
   std::string_view name() const override { return "bilinear_spring"; }
   std::string_view help() const override { return "a spring with another stiffness beyond a displacement"; }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override {
+    return bilinear_spring_fields;
+  }
   bool options_bring_fields() const override { return false; }
   std::shared_ptr<const Law> law(const scene::Settings& options) const override {
     return !options.empty() && options.as<BilinearSpringOptions>().one_sided ? one_sided_ : two_sided_;

@@ -9,10 +9,9 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-constexpr scene::Field all_fields[] = {
+constexpr scene::Field bouc_wen_fields[] = {
     {.name = "stiffness",
      .unit = "N/m",
      .lower = 0,
@@ -75,7 +74,7 @@ class BoucWen final : public PlainLaw, public Hysteresis {
  public:
   std::string_view name() const override { return "bouc_wen"; }
   std::string_view help() const override { return "smooth hysteresis"; }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override { return bouc_wen_fields; }
 
   bool antisymmetric() const override { return true; }
   bool dissipative() const override { return true; }

@@ -8,8 +8,8 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double held =
-    1e-12;  // of the mean of z in its equation, which does not hold it in a motion of no size
+// Of the mean of z in its equation, which does not hold it in a motion of no size.
+constexpr double held_mean = 1e-12;
 
 int sample_count(const Harmonics& h, const Sampling& sampling) {
   const int own = 2 * std::min(h.order, 32) * h.order + 128;
@@ -45,7 +45,7 @@ class BoucWenElement final : public Element {
     project(F_.tail(c));
     series_slope(h_, u.tail(c), slope_);
     F_.tail(c) = slope_ - F_.tail(c);
-    if (!h_.odd) F_[c] += held * u[c];
+    if (!h_.odd) F_[c] += held_mean * u[c];
     if (!jacobian) return;
     J_.setZero();
     J_.topLeftCorner(c, c).diagonal().setConstant(at.a * at.k);
@@ -62,7 +62,7 @@ class BoucWenElement final : public Element {
     each([](const BoucWenRate& r, double dq) { return r.by_z * dq; });
     weigh();
     by_z = -block_;
-    if (!h_.odd) by_z(0, 0) += held;
+    if (!h_.odd) by_z(0, 0) += held_mean;
     for (int j = 0; j < h_.sines(); ++j) {
       const int n = h_.sine_order(j), a = h_.cosine_index(n), b = h_.sine_index(n);
       by_z(a, b) += n;

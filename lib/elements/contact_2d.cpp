@@ -8,14 +8,11 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 enum { tangential, normal };
-enum { tangential_stiffness, normal_stiffness, friction_coefficient, normal_load };
 
-constexpr std::string_view all_slots[] = {"tangential", "normal"};
+constexpr std::string_view contact_2d_slots[] = {"tangential", "normal"};
 
-constexpr scene::Field all_fields[] = {
+constexpr scene::Field contact_2d_fields[] = {
     {.name = "tangential_stiffness",
      .unit = "N/m",
      .lower = 0,
@@ -52,8 +49,8 @@ class Contact2d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
   std::string_view help() const override {
     return "friction in one direction under a normal load that varies, with separation";
   }
-  std::span<const std::string_view> slots() const override { return all_slots; }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  std::span<const std::string_view> slots() const override { return contact_2d_slots; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override { return contact_2d_fields; }
   bool options_bring_fields() const override { return false; }
 
   std::shared_ptr<const Law> law(const scene::Settings& options) const override;
@@ -68,19 +65,21 @@ class Contact2d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
     const double limit = law.mu * std::max(law.N_0, 0.0);
     if (direction == normal)
       return {.stiffness = law.k_n,
-              .stiffness_field = normal_stiffness,
+              .stiffness_field = contact_field::normal_stiffness,
               .holds_mean = law.k_n > 0 && law.N_0 > 0,
               .several_responses = true,
               .far_power = law.k_n > 0 ? 1.0 : 0.0};
     return {.stiffness = law.k_t,
-            .stiffness_field = tangential_stiffness,
+            .stiffness_field = contact_field::tangential_stiffness,
             .holds_in_stick = offset_ == Offset::static_loads && limit > 0,
             .several_responses = law.k_n > 0,
             .far_work = 4 * limit,
             .limit = limit};
   }
   double stiffness(Fields fields, int direction, double) const override { return fields[direction]; }
-  bool limited_by(int field) const override { return field == friction_coefficient || field == normal_load; }
+  bool limited_by(int field) const override {
+    return field == contact_field::friction_coefficient || field == contact_field::normal_load;
+  }
 
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling&) const override {
     return make_contact_2d(harmonics, offset_);
@@ -122,7 +121,7 @@ class Contact2d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
   bool symmetric_step() const override { return false; }
 
   void memory_at(Fields fields, In q, In f, Out z) const override {
-    z[0] = q[tangential] - f[tangential] / fields[tangential_stiffness];
+    z[0] = q[tangential] - f[tangential] / fields[contact_field::tangential_stiffness];
   }
 
   void begin(Fields fields, In q, Out z, StepEnd& at) const override {
@@ -299,8 +298,8 @@ std::shared_ptr<const Law> Contact2d::law(const scene::Settings& options) const 
 }  // namespace
 
 ContactLaw contact_law(Fields fields) {
-  return {fields[tangential_stiffness], fields[normal_stiffness], fields[friction_coefficient],
-          fields[normal_load]};
+  return {fields[contact_field::tangential_stiffness], fields[contact_field::normal_stiffness],
+          fields[contact_field::friction_coefficient], fields[contact_field::normal_load]};
 }
 
 const PlainLaw& contact_2d() {

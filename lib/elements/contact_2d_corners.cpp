@@ -12,10 +12,7 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double same_place = 1e-9;  // rad
-constexpr double next_to_be = 1e-3;  // of the range of a bound: reversals next to be the highest or lowest
-
-enum { separation, closing, first_onset, carried_up = 8, carried_down };
+enum { first_onset = load_guard::count, contact_carried_up = 8, contact_carried_down };
 
 // Onset of slip of the sign given, of a slider that rests since it was left.
 struct SlipOnset {
@@ -23,7 +20,7 @@ struct SlipOnset {
   double slip;
 };
 
-int guard_of(SlipOnset onset) {
+int guard_of_onset(SlipOnset onset) {
   return first_onset + static_cast<int>(onset.rest) + (onset.slip > 0 ? 3 : 0);
 }
 
@@ -45,11 +42,12 @@ class Contact2dCorners final : public Corners {
   void equations(const Corner& corner, In w, Fields fields, Equations& at) override {
     set(contact_law(fields), w);
     if (corner.guard < first_onset)
-      return set_load_corner(h_, corner, corner.guard == closing, w.tail(c_), {law_.k_n, law_.N_0, 1, 3}, at);
+      return set_load_corner(h_, corner, corner.guard == load_guard::closing, w.tail(c_),
+                             {law_.k_n, law_.N_0, 1, 3}, at);
     at.values.setZero();
     for (Eigen::MatrixXd* m : {&at.by_motion, &at.by_angle, &at.by_field}) m->setZero();
-    if (corner.guard >= carried_up) {  // k_t x_t - mu N, or -(k_t x_t + mu N)
-      const double sign = corner.guard == carried_up ? 1 : -1;
+    if (corner.guard >= contact_carried_up) {  // k_t x_t - mu N, or -(k_t x_t + mu N)
+      const double sign = corner.guard == contact_carried_up ? 1 : -1;
       add_bound(sign * law_.k_t, -sign, corner.angles[0], 0, at);
       at.by_field(0, 0) += at.values[0] / law_.k_t;
       add_slope(-sign, corner.angles[0], 0, 1, at);
@@ -76,9 +74,9 @@ class Contact2dCorners final : public Corners {
   bool polish(Corner& corner, In w, Fields fields) override {
     set(contact_law(fields), w);
     if (corner.guard < first_onset)
-      return polish_reversal(h_, w.tail(c_), corner.guard == closing ? 1 : -1, corner.angles[0]);
-    if (corner.guard >= carried_up) {
-      const double sign = corner.guard == carried_up ? 1 : -1;
+      return polish_reversal(h_, w.tail(c_), corner.guard == load_guard::closing ? 1 : -1, corner.angles[0]);
+    if (corner.guard >= contact_carried_up) {
+      const double sign = corner.guard == contact_carried_up ? 1 : -1;
       return polish_reversal(h_, bound(-sign), sign, corner.angles[0]);
     }
     const SlipOnset onset = onset_of(corner);
@@ -103,7 +101,8 @@ class Contact2dCorners final : public Corners {
         found.push_back(std::move(corner));
     };
     for (const Reversal& turn : search.normal().reversals())
-      add(series_values(h_, w.tail(c_), turn.theta).d2 < 0 ? closing : separation, {turn.theta});
+      add(series_values(h_, w.tail(c_), turn.theta).d2 < 0 ? load_guard::closing : load_guard::separation,
+          {turn.theta});
     if (!(law.mu > 0)) return found;
     if (search.full_stick()) {
       add_of_stick(search, add);
@@ -114,7 +113,7 @@ class Contact2dCorners final : public Corners {
       if (phase.state != ContactPhase::State::stick) continue;
       const ContactPhase &next = phases[(i + 1) % phases.size()], &then = phases[(i + 2) % phases.size()];
       const auto add_onset = [&](double slip, double theta) {
-        add(guard_of({phase.rest.at, slip}), {phase.rest.theta, theta});
+        add(guard_of_onset({phase.rest.at, slip}), {phase.rest.theta, theta});
       };
       if (next.state == ContactPhase::State::slip && then.state != ContactPhase::State::open) {
         const double turns = next.begin < phase.begin ? 2 * std::numbers::pi : 0;
@@ -123,10 +122,11 @@ class Contact2dCorners final : public Corners {
       for (const double slip : {1.0, -1.0})
         for (const Reversal& turn : slip > 0 ? search.reversals_of_lower() : search.reversals_of_upper()) {
           double theta = turn.theta;
-          while (theta <= phase.begin + same_place) theta += 2 * std::numbers::pi;
-          while (theta - 2 * std::numbers::pi > phase.begin + same_place) theta -= 2 * std::numbers::pi;
+          while (theta <= phase.begin + same_corner_angle) theta += 2 * std::numbers::pi;
+          while (theta - 2 * std::numbers::pi > phase.begin + same_corner_angle)
+            theta -= 2 * std::numbers::pi;
           const double bend = series_values(h_, bound(-slip), theta).d2;
-          if (theta < phase.end - same_place && slip * bend < 0) add_onset(slip, theta);
+          if (theta < phase.end - same_corner_angle && slip * bend < 0) add_onset(slip, theta);
         }
     }
     return found;
@@ -206,7 +206,7 @@ class Contact2dCorners final : public Corners {
     const Reversal low = search.largest_lower(), high = search.smallest_upper();
     const auto &lower = search.reversals_of_lower(), &upper = search.reversals_of_upper();
     if (lower.empty() || upper.empty()) return;
-    const double near = next_to_be * (series_bound(h_, lower_, 0) + series_bound(h_, upper_, 0));
+    const double near = next_extreme * (series_bound(h_, lower_, 0) + series_bound(h_, upper_, 0));
     std::vector<double> tops, bottoms;
     for (const Reversal& at : lower)
       if (at.x >= low.x - near) tops.push_back(at.theta);
@@ -214,17 +214,17 @@ class Contact2dCorners final : public Corners {
       if (at.x <= high.x + near) bottoms.push_back(at.theta);
     for (std::size_t i = 0; i < tops.size(); ++i) {
       for (const double bottom : bottoms)
-        add(guard_of({SliderRest::At::upper_reversal, 1}), {bottom, tops[i]});
+        add(guard_of_onset({SliderRest::At::upper_reversal, 1}), {bottom, tops[i]});
       for (std::size_t j = 0; j < i && search.held().lower > 0; ++j)
-        add(guard_of({SliderRest::At::lower_reversal, 1}), {tops[j], tops[i]});
+        add(guard_of_onset({SliderRest::At::lower_reversal, 1}), {tops[j], tops[i]});
     }
     if (offset_ == Offset::static_loads) {
-      for (const double top : tops) add(carried_up, {top});
-      for (const double bottom : bottoms) add(carried_down, {bottom});
+      for (const double top : tops) add(contact_carried_up, {top});
+      for (const double bottom : bottoms) add(contact_carried_down, {bottom});
     }
     for (std::size_t i = 0; i < bottoms.size(); ++i)
       for (std::size_t j = 0; j < i && search.held().upper > 0; ++j)
-        add(guard_of({SliderRest::At::upper_reversal, -1}), {bottoms[j], bottoms[i]});
+        add(guard_of_onset({SliderRest::At::upper_reversal, -1}), {bottoms[j], bottoms[i]});
   }
 
   // The same corner, or an image of it in a motion of a shorter period.
@@ -234,7 +234,7 @@ class Contact2dCorners final : public Corners {
       const double turn = corner.angles[0] - other.angles[0];
       for (std::size_t i = 1; i < corner.angles.size(); ++i) {
         const double apart = corner.angles[i] - other.angles[i] - turn;
-        if (std::abs(std::remainder(apart, 2 * std::numbers::pi)) > same_place) return false;
+        if (std::abs(std::remainder(apart, 2 * std::numbers::pi)) > same_corner_angle) return false;
       }
       return is_image(h_, w.head(c_), turn, 1) && is_image(h_, w.tail(c_), turn, 1);
     });

@@ -9,14 +9,10 @@
 namespace arcslip::elements {
 namespace {
 
-enum { tangential_stiffness, normal_stiffness, friction_coefficient, normal_load, field_count };
-
-constexpr double kappa = 1 / std::numbers::pi;
-
 // How a rest w changes: dw = phi . du_t + normal phi . du_n + by_field . dfields.
 struct RestChange {
   double normal = 0;
-  double by_field[field_count] = {};
+  double by_field[contact_field::count] = {};
 };
 
 class Contact2dElement final : public Element {
@@ -26,7 +22,7 @@ class Contact2dElement final : public Element {
         phases_(h, offset),
         stick_(h),
         slip_(h),
-        by_field_(2 * h.size(), field_count),
+        by_field_(2 * h.size(), contact_field::count),
         g_(h.size()),
         phi_(h.size()),
         at_lower_(h.size()),
@@ -84,8 +80,8 @@ class Contact2dElement final : public Element {
     const Eigen::Index c = h_.size();
     const NormalContact& normal = phases_.normal();
     F_.tail(c) = normal.force();
-    normal_rows(normal_stiffness) = normal.by_stiffness();
-    normal_rows(normal_load) = normal.by_load();
+    normal_rows(contact_field::normal_stiffness) = normal.by_stiffness();
+    normal_rows(contact_field::normal_load) = normal.by_load();
     if (jacobian) normal.jacobian(J_.bottomRightCorner(c, c));
   }
 
@@ -99,16 +95,16 @@ class Contact2dElement final : public Element {
       const double x_n_rate = series_values(h_, u_n, rest.theta).d1;
       const double rate = x_n_rate > 0 ? std::clamp(x_t_rate / x_n_rate, -most, most) : 0;
       at.normal = -rate;
-      at.by_field[normal_stiffness] = -rate * x_n / law_.k_n;
-      at.by_field[normal_load] = -rate / law_.k_n;
+      at.by_field[contact_field::normal_stiffness] = -rate * x_n / law_.k_n;
+      at.by_field[contact_field::normal_load] = -rate / law_.k_n;
       return at;
     }
     const double s = rest.sign(), N = law_.N_0 + law_.k_n * x_n;
     at.normal = s * law_.mu * law_.k_n / law_.k_t;
-    at.by_field[tangential_stiffness] = -s * law_.mu * N / (law_.k_t * law_.k_t);
-    at.by_field[normal_stiffness] = s * law_.mu * x_n / law_.k_t;
-    at.by_field[friction_coefficient] = s * N / law_.k_t;
-    at.by_field[normal_load] = s * law_.mu / law_.k_t;
+    at.by_field[contact_field::tangential_stiffness] = -s * law_.mu * N / (law_.k_t * law_.k_t);
+    at.by_field[contact_field::normal_stiffness] = s * law_.mu * x_n / law_.k_t;
+    at.by_field[contact_field::friction_coefficient] = s * N / law_.k_t;
+    at.by_field[contact_field::normal_load] = s * law_.mu / law_.k_t;
     return at;
   }
 
@@ -136,7 +132,7 @@ class Contact2dElement final : public Element {
     auto F = F_.head(c);
     F = u_t;
     F[0] = mean_elongation(u_t, u_n, held);
-    tangential_rows(tangential_stiffness) = F;
+    tangential_rows(contact_field::tangential_stiffness) = F;
     F *= k;
     if (jacobian) J_.topLeftCorner(c, c).diagonal().setConstant(k);
     const SliderRest ends[] = {{SliderRest::At::lower_reversal, phases_.largest_lower().theta, 0},
@@ -146,7 +142,7 @@ class Contact2dElement final : public Element {
       if (share == 0) continue;
       phi_ = end.sign() < 0 ? at_lower_ : at_upper_;
       const RestChange dw = change(end, u_t, u_n);
-      for (int field = 0; field < field_count; ++field)
+      for (int field = 0; field < contact_field::count; ++field)
         tangential_rows(field)[0] -= share * k * dw.by_field[field];
       if (!jacobian) continue;
       J_.row(0).head(c) -= share * k * phi_.transpose();
@@ -158,7 +154,7 @@ class Contact2dElement final : public Element {
     const Eigen::Index c = h_.size();
     const double k = law_.k_t;
     auto F = F_.head(c);
-    auto by_stiffness = tangential_rows(tangential_stiffness);
+    auto by_stiffness = tangential_rows(contact_field::tangential_stiffness);
     auto J_t = J_.topLeftCorner(c, c), J_n = J_.topRightCorner(c, c);
     stick_.clear();
     slip_.clear();
@@ -174,36 +170,36 @@ class Contact2dElement final : public Element {
       integrate_basis(length);
       set_basis_at_begin();
       const RestChange dw = change(phase.rest, u_t, u_n);
-      F -= kappa * phase.rest.w * g_;
-      for (int field = 0; field < field_count; ++field)
-        tangential_rows(field) -= kappa * k * dw.by_field[field] * g_;
+      F -= fourier_factor * phase.rest.w * g_;
+      for (int field = 0; field < contact_field::count; ++field)
+        tangential_rows(field) -= fourier_factor * k * dw.by_field[field] * g_;
       if (!jacobian) continue;
-      g_ *= kappa * k;
+      g_ *= fourier_factor * k;
       J_t.noalias() -= g_ * phi_.transpose();
       phi_ *= dw.normal;
       J_n.noalias() -= g_ * phi_.transpose();
     }
     stick_.close();
     slip_.close();
-    stick_.times(u_t, kappa, F);
+    stick_.times(u_t, fourier_factor, F);
     by_stiffness += F;
     F *= k;
     phi_.setZero();
-    slip_.times(u_n, kappa, phi_);
+    slip_.times(u_n, fourier_factor, phi_);
     slip_.integral(g_);
-    g_ *= kappa;
-    tangential_rows(normal_stiffness) += law_.mu * phi_;
-    tangential_rows(normal_load) += law_.mu * g_;
+    g_ *= fourier_factor;
+    tangential_rows(contact_field::normal_stiffness) += law_.mu * phi_;
+    tangential_rows(contact_field::normal_load) += law_.mu * g_;
     phi_ = law_.k_n * phi_ + law_.N_0 * g_;
-    tangential_rows(friction_coefficient) += phi_;
+    tangential_rows(contact_field::friction_coefficient) += phi_;
     F += law_.mu * phi_;
     if (jacobian) {
-      stick_.add_to(J_t, kappa * k);
-      slip_.add_to(J_n, kappa * law_.mu * law_.k_n);
+      stick_.add_to(J_t, fourier_factor * k);
+      slip_.add_to(J_n, fourier_factor * law_.mu * law_.k_n);
       J_.row(0).head(2 * c) *= 0.5;
     }
     F[0] *= 0.5;
-    for (int field = 0; field < field_count; ++field) tangential_rows(field)[0] *= 0.5;
+    for (int field = 0; field < contact_field::count; ++field) tangential_rows(field)[0] *= 0.5;
   }
 
   void set_powers(double begin, double end) {

@@ -1,5 +1,7 @@
 #include <arcslip/elements/contact_3d.hpp>
 
+#include <arcslip/elements/disc.hpp>
+#include <arcslip/elements/normal_contact.hpp>
 #include <arcslip/elements/offset_option.hpp>
 #include <arcslip/elements/plane_friction.hpp>
 
@@ -11,14 +13,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+enum { tangential_1, tangential_2, plane_normal };
 
-enum { first, second, normal };
-enum { tangential_stiffness, normal_stiffness, friction_coefficient, normal_load };
+constexpr std::string_view contact_3d_slots[] = {"tangential_1", "tangential_2", "normal"};
 
-constexpr std::string_view all_slots[] = {"tangential_1", "tangential_2", "normal"};
-
-constexpr scene::Field all_fields[] = {
+constexpr scene::Field contact_3d_fields[] = {
     {.name = "tangential_stiffness",
      .unit = "N/m",
      .lower = 0,
@@ -43,17 +42,13 @@ constexpr scene::Field all_fields[] = {
              "normal_stiffness"},
 };
 
-struct ContactLaw : PlaneFriction::Contact {
+struct PlaneContactLaw : PlaneFriction::Contact {
   double load(double x_n) const { return std::max(N_0 + k_n * x_n, 0.0); }
 };
 
-ContactLaw law_of(Fields fields) {
-  return {{fields[tangential_stiffness], fields[normal_stiffness], fields[friction_coefficient],
-           fields[normal_load]}};
-}
-
-Vector2d turned(const Vector2d& n) {
-  return {-n[1], n[0]};
+PlaneContactLaw plane_contact_law(Fields fields) {
+  return {{fields[contact_field::tangential_stiffness], fields[contact_field::normal_stiffness],
+           fields[contact_field::friction_coefficient], fields[contact_field::normal_load]}};
 }
 
 // y, the stretch of the slider's spring, after a step in contact from y_0, in which x moves by d and the
@@ -87,7 +82,8 @@ class Stretch {
     const double s = onset, length = end - s, h = h_0 + s * e, speed = d.norm();
     const Vector2d y_on = y_0 + s * d;
     const Vector2d n_on = y_on.norm() > 0 ? Vector2d(y_on.normalized()) : Vector2d(d.normalized());
-    const Vector2d t_on = turned(n_on), along = speed > 0 ? Vector2d(d / speed) : n_on, side = turned(along);
+    const Vector2d t_on = quarter_turn(n_on), along = speed > 0 ? Vector2d(d / speed) : n_on,
+                   side = quarter_turn(along);
     const double r = h > 0 ? e * length / h : -1;
     const double integral = h_1 > 0 ? length / h * log_over(r) : infinity;  // of 1/h
     const double decay = speed > 0 ? std::exp(-std::min(speed * integral, 700.0)) : 1;
@@ -95,7 +91,7 @@ class Stretch {
     const double cosine = std::cos(half), sine = std::sin(half);
     const double below = cosine * cosine + sine * sine * decay * decay;
     const double angle = 2 * std::atan2(sine * decay, cosine);
-    const Vector2d n = std::cos(angle) * along + std::sin(angle) * side, t = turned(n);
+    const Vector2d n = std::cos(angle) * along + std::sin(angle) * side, t = quarter_turn(n);
     y = h_1 * n;
     dissipate(2 * half, speed, h, e, length);
     by_y.setZero();
@@ -150,7 +146,7 @@ class Stretch {
   }
 };
 
-scene::file::KeysOf<OffsetOption> option_keys() {
+scene::file::KeysOf<OffsetOption> contact_3d_keys() {
   scene::file::KeysOf<OffsetOption> keys;
   keys.add(centred_offset<OffsetOption>(
       "of a slider that sticks throughout the period: in the middle of where it can, without a mean force",
@@ -163,40 +159,45 @@ scene::file::KeysOf<OffsetOption> option_keys() {
 
 class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw>, public PlaneFriction {
  public:
-  Contact3d() : KeyedPart(option_keys()) {}
+  Contact3d() : KeyedPart(contact_3d_keys()) {}
   std::string_view name() const override { return "contact_3d"; }
   std::string_view help() const override {
     return "friction in a plane under a normal load that varies, with separation";
   }
-  std::span<const std::string_view> slots() const override { return all_slots; }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  std::span<const std::string_view> slots() const override { return contact_3d_slots; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override { return contact_3d_fields; }
   bool options_bring_fields() const override { return false; }
-  Contact contact(Fields fields) const override { return law_of(fields); }
+  Contact contact(Fields fields) const override { return plane_contact_law(fields); }
 
   bool antisymmetric() const override { return false; }
   bool has_contact() const override { return true; }
   bool tells_contact() const override { return true; }
   bool has_normal_load() const override { return true; }
-  double normal_load_at(Fields fields, double x_n) const override { return law_of(fields).load(x_n); }
+  double normal_load_at(Fields fields, double x_n) const override {
+    return plane_contact_law(fields).load(x_n);
+  }
   Traits traits(Fields fields, int direction) const override {
-    const ContactLaw law = law_of(fields);
+    const PlaneContactLaw law = plane_contact_law(fields);
     const double limit = law.mu * std::max(law.N_0, 0.0);
-    if (direction == normal)
+    if (direction == plane_normal)
       return {.stiffness = law.k_n,
-              .stiffness_field = normal_stiffness,
+              .stiffness_field = contact_field::normal_stiffness,
               .holds_mean = law.k_n > 0 && law.N_0 > 0,
               .several_responses = true,
               .far_power = law.k_n > 0 ? 1.0 : 0.0};
     return {.stiffness = law.k_t,
-            .stiffness_field = tangential_stiffness,
+            .stiffness_field = contact_field::tangential_stiffness,
             .several_responses = law.k_n > 0,
             .far_work = 4 * limit,
             .limit = limit};
   }
   double stiffness(Fields fields, int direction, double) const override {
-    return fields[direction == normal ? normal_stiffness : tangential_stiffness];
+    return fields[direction == plane_normal ? contact_field::normal_stiffness
+                                            : contact_field::tangential_stiffness];
   }
-  bool limited_by(int field) const override { return field == friction_coefficient || field == normal_load; }
+  bool limited_by(int field) const override {
+    return field == contact_field::friction_coefficient || field == contact_field::normal_load;
+  }
 
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling&) const override {
     return make_contact_3d(harmonics);
@@ -213,16 +214,16 @@ class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw>, p
   bool symmetric_step() const override { return false; }
 
   void memory_at(Fields fields, In q, In f, Out z) const override {
-    z.head<2>() = q.head<2>() - f.head<2>() / fields[tangential_stiffness];
+    z.head<2>() = q.head<2>() - f.head<2>() / fields[contact_field::tangential_stiffness];
   }
 
   void begin(Fields fields, In q, Out z, StepEnd& at) const override {
-    const ContactLaw law = law_of(fields);
-    const double N = law.load(q[normal]), limit = law.mu * N;
+    const PlaneContactLaw law = plane_contact_law(fields);
+    const double N = law.load(q[plane_normal]), limit = law.mu * N;
     const Vector2d elastic = law.k_t * (q.head<2>() - z.head<2>());
     const double size = elastic.norm();
     at.f.head<2>() = size > limit ? Vector2d(limit / size * elastic) : elastic;
-    at.f[normal] = N - std::max(law.N_0, 0.0);
+    at.f[plane_normal] = N - std::max(law.N_0, 0.0);
     at.f_q.setZero();
     at.f_z.setZero();
     if (N > 0) {
@@ -234,15 +235,15 @@ class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw>, p
 
   // Along the step the radius and N are linear: the contact opens or closes once at most.
   void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const override {
-    const ContactLaw law = law_of(fields);
+    const PlaneContactLaw law = plane_contact_law(fields);
     const double k = law.k_t, ratio = law.mu * law.k_n / k;
     const Vector2d d = dq.head<2>(), y = start.f.head<2>() / k;
-    const double N_begin = law.N_0 + law.k_n * start.q[normal], dN = law.k_n * dq[normal];
+    const double N_begin = law.N_0 + law.k_n * start.q[plane_normal], dN = law.k_n * dq[plane_normal];
     const double N_end = N_begin + dN;
     clear(end);
-    end.f[normal] = std::max(N_end, 0.0) - std::max(law.N_0, 0.0);
+    end.f[plane_normal] = std::max(N_end, 0.0) - std::max(law.N_0, 0.0);
     end.z_q.leftCols<2>().setIdentity();
-    if (N_end > 0) end.f_q(normal, normal) = law.k_n;
+    if (N_end > 0) end.f_q(plane_normal, plane_normal) = law.k_n;
     if (N_begin <= 0 && N_end <= 0) {  // open
       end.dz = d + y;
       end.open_share = 1;
@@ -268,8 +269,8 @@ class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw>, p
   }
 
   double stored(Fields fields, In q, In z) const override {
-    const ContactLaw law = law_of(fields);
-    const double x = q[normal];
+    const PlaneContactLaw law = plane_contact_law(fields);
+    const double x = q[plane_normal];
     const double energy = 0.5 * law.k_t * (q.head<2>() - z.head<2>()).squaredNorm();
     if (law.k_n == 0) return energy;
     const double touch = -law.N_0 / law.k_n;  // where N = 0
@@ -296,8 +297,8 @@ class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw>, p
   }
 
   // The contact closes after the share s of the step, with w = x there.
-  static void close(const ContactLaw& law, double N_begin, double dN, const Vector2d& d, const Vector2d& y,
-                    StepEnd& end) {
+  static void close(const PlaneContactLaw& law, double N_begin, double dN, const Vector2d& d,
+                    const Vector2d& y, StepEnd& end) {
     const double s = -N_begin / dN, k = law.k_t, N_end = N_begin + dN, h = law.mu * N_end / k;
     const double speed = d.norm();
     const Vector2d elastic = (1 - s) * d;
@@ -311,7 +312,7 @@ class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw>, p
       by_start << -(1 - s) * Eigen::Matrix2d::Identity(), -(1 - s) * by_s;
       end.stick_share = 1 - s;
     } else {
-      const Vector2d n = speed > 0 ? Vector2d(d / speed) : Vector2d(1, 0), t = turned(n);
+      const Vector2d n = speed > 0 ? Vector2d(d / speed) : Vector2d(1, 0), t = quarter_turn(n);
       stretch = h * n;
       const Eigen::Matrix2d by_d =
           speed > 0 ? Eigen::Matrix2d(h / speed * t * t.transpose()) : Eigen::Matrix2d::Zero();

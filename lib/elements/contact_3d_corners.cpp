@@ -20,26 +20,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace arcslip::elements {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double turn_angle = 2 * std::numbers::pi;
-constexpr double same_place = 1e-9;  // rad
 constexpr double same_corner = 0.3;  // rad: an angle that moves farther is another one
 constexpr double just_born = 1e-5;   // rad: the root of rounding
 constexpr double short_slip = 0.3;   // rad: slip that may just have been born
-constexpr int newton_steps = 30;
+constexpr int corner_newton_steps = 30;
 
-enum { separation, closing, stick_of_two, stick_of_three, birth_in_rest };
-enum { tangential_stiffness, normal_stiffness, friction_coefficient, normal_load };
-
-Vector2d turned(const Vector2d& n) {
-  return {-n[1], n[0]};
-}
+enum { stick_of_two = load_guard::count, stick_of_three, birth_in_rest };
 
 class Contact3dCorners final : public Corners {
  public:
@@ -56,9 +48,10 @@ class Contact3dCorners final : public Corners {
 
   void equations(const Corner& corner, In w, Fields fields, Equations& at) override {
     set(w, fields);
-    if (corner.guard <= closing)
-      return set_load_corner(h_, corner, corner.guard == closing, w.tail(c_),
-                             {fields_[normal_stiffness], fields_[normal_load], normal_stiffness, normal_load},
+    if (corner.guard <= load_guard::closing)
+      return set_load_corner(h_, corner, corner.guard == load_guard::closing, w.tail(c_),
+                             {fields_[contact_field::normal_stiffness], fields_[contact_field::normal_load],
+                              contact_field::normal_stiffness, contact_field::normal_load},
                              at);
     at.by_angle.setZero();
     rows_.setZero(at.values.size(), 3 * c_);
@@ -77,8 +70,8 @@ class Contact3dCorners final : public Corners {
   }
 
   bool polish(Corner& corner, In w, Fields fields) override {
-    if (corner.guard <= closing)
-      return polish_reversal(h_, w.tail(c_), corner.guard == closing ? 1 : -1, corner.angles[0]);
+    if (corner.guard <= load_guard::closing)
+      return polish_reversal(h_, w.tail(c_), corner.guard == load_guard::closing ? 1 : -1, corner.angles[0]);
     set(w, fields);
     if (!std::isfinite(size())) return false;
     if (corner.guard != birth_in_rest) return polish_stick(corner);
@@ -100,13 +93,14 @@ class Contact3dCorners final : public Corners {
       if (std::abs(at.values[0]) <= limit && !is_listed(found, corner)) found.push_back(corner);
     };
     for (const Reversal& turn : normal_.reversals())
-      add(series_values(h_, w.tail(c_), turn.theta).d2 < 0 ? closing : separation, {turn.theta}, most);
-    if (!(fields_[friction_coefficient] > 0) || list().empty()) return found;
+      add(series_values(h_, w.tail(c_), turn.theta).d2 < 0 ? load_guard::closing : load_guard::separation,
+          {turn.theta}, most);
+    if (!(fields_[contact_field::friction_coefficient] > 0) || list().empty()) return found;
     double limit = most;
     if (!normal_.opens()) {
       // Where a rest of the whole period is almost possible all slips are short, and this is their corner.
       const StickCentre& centre = stretch_.phases().centre();
-      limit = std::min(most, fields_[tangential_stiffness] * std::abs(centre.r()));
+      limit = std::min(most, fields_[contact_field::tangential_stiffness] * std::abs(centre.r()));
       if (centre.active().size() == 2) add(stick_of_two, centre.active(), most);
       if (centre.active().size() == 3) add(stick_of_three, centre.active(), most);
     }
@@ -121,20 +115,21 @@ class Contact3dCorners final : public Corners {
   void set(In w, Fields fields) {
     std::copy(fields.begin(), fields.end(), fields_);
     w_ = w;
-    radius_ = fields_[normal_stiffness] * w.tail(c_);
-    radius_[0] += fields_[normal_load];
-    radius_ *= fields_[friction_coefficient] / fields_[tangential_stiffness];
+    radius_ = fields_[contact_field::normal_stiffness] * w.tail(c_);
+    radius_[0] += fields_[contact_field::normal_load];
+    radius_ *= fields_[contact_field::friction_coefficient] / fields_[contact_field::tangential_stiffness];
     disc_.set(w.head(c_), w.segment(c_, c_), radius_);
   }
   double size() const {
     const double normal =
-        fields_[normal_stiffness] * (std::abs(w_[2 * c_]) + series_bound(h_, w_.tail(c_), 0));
-    return std::max(std::abs(fields_[normal_load]) + normal,
-                    fields_[tangential_stiffness] * disc_.motion_bound(0));
+        fields_[contact_field::normal_stiffness] * (std::abs(w_[2 * c_]) + series_bound(h_, w_.tail(c_), 0));
+    return std::max(std::abs(fields_[contact_field::normal_load]) + normal,
+                    fields_[contact_field::tangential_stiffness] * disc_.motion_bound(0));
   }
   void find_phases() {
-    normal_.move_to(w_.tail(c_), fields_[normal_stiffness], fields_[normal_load]);
-    if (fields_[friction_coefficient] > 0 && std::isfinite(disc_.motion_bound(3)))
+    normal_.move_to(w_.tail(c_), fields_[contact_field::normal_stiffness],
+                    fields_[contact_field::normal_load]);
+    if (fields_[contact_field::friction_coefficient] > 0 && std::isfinite(disc_.motion_bound(3)))
       stretch_.move_to(disc_, normal_.closed(), normal_.opens());
   }
   const std::vector<DiscPhase>& list() const { return stretch_.phases().list(); }
@@ -158,7 +153,7 @@ class Contact3dCorners final : public Corners {
     const DiscPoint p[] = {disc_.at(angles[0]), disc_.at(angles[1])};
     const Vector2d apart = p[0].x - p[1].x;
     const double d = apart.norm();
-    const Vector2d n = apart / d, t = turned(n);
+    const Vector2d n = apart / d, t = quarter_turn(n);
     at.values[0] = 0.5 * (d - p[0].h - p[1].h);
     for (int i = 0; i < 2; ++i) {
       const double side = i == 0 ? 1 : -1, turning = side * t.dot(p[i].v) / d;
@@ -188,7 +183,7 @@ class Contact3dCorners final : public Corners {
       const Vector2d y = p[i].x - margin->w;
       d[i] = y.norm();
       n[i] = y / d[i];
-      t[i] = turned(n[i]);
+      t[i] = quarter_turn(n[i]);
       A.row(i) << n[i].transpose(), 1;
     }
     const Eigen::Matrix3d by_excess = A.inverse();  // of (w, r) by n_i.dx_i - dR_i
@@ -217,7 +212,7 @@ class Contact3dCorners final : public Corners {
     const DiscPoint p = disc_.at(theta);
     const Vector2d y = p.x - list()[*rest].w;
     const double d = y.norm();
-    const Vector2d n = y / d, t = turned(n);
+    const Vector2d n = y / d, t = quarter_turn(n);
     const double turning = t.dot(p.v) / d;
     dw_.resize(2, 3 * c_);
     stretch_.rest_derivative(*rest, dw_);
@@ -232,23 +227,24 @@ class Contact3dCorners final : public Corners {
 
   // From x and R to the motion and the fields, times k_t in the first row.
   void to_unknowns(Equations& at) {
-    const double k_t = fields_[tangential_stiffness], k_n = fields_[normal_stiffness],
-                 mu = fields_[friction_coefficient];
+    const double k_t = fields_[contact_field::tangential_stiffness],
+                 k_n = fields_[contact_field::normal_stiffness],
+                 mu = fields_[contact_field::friction_coefficient];
     const auto by_R = rows_.rightCols(c_);
     at.by_motion << rows_.leftCols(2 * c_), mu * k_n / k_t * by_R;
-    at.by_field.col(tangential_stiffness) = -by_R * radius_ / k_t;
-    at.by_field.col(normal_stiffness) = mu / k_t * by_R * w_.tail(c_);
-    at.by_field.col(friction_coefficient) = by_R * radius_ / mu;
-    at.by_field.col(normal_load) = mu / k_t * by_R.col(0);
+    at.by_field.col(contact_field::tangential_stiffness) = -by_R * radius_ / k_t;
+    at.by_field.col(contact_field::normal_stiffness) = mu / k_t * by_R * w_.tail(c_);
+    at.by_field.col(contact_field::friction_coefficient) = by_R * radius_ / mu;
+    at.by_field.col(contact_field::normal_load) = mu / k_t * by_R.col(0);
     at.by_field.row(0) *= k_t;
-    at.by_field(0, tangential_stiffness) += at.values[0];
+    at.by_field(0, contact_field::tangential_stiffness) += at.values[0];
     at.values[0] *= k_t;
     at.by_motion.row(0) *= k_t;
     at.by_angle.row(0) *= k_t;
   }
 
   static double after(double theta, double begin) {
-    return theta - begin - std::floor((theta - begin) / turn_angle) * turn_angle;
+    return theta - begin - std::floor((theta - begin) / whole_turn) * whole_turn;
   }
   // Slip after the rest that ends soon in another rest: it may just have been born.
   const DiscPhase* short_slip_after(std::size_t rest) const {
@@ -261,7 +257,7 @@ class Contact3dCorners final : public Corners {
   // The rest in which slip is born at an angle, or has just been.
   std::optional<std::size_t> rest_before(double theta) const {
     std::optional<std::size_t> last;
-    double least = turn_angle;
+    double least = whole_turn;
     for (std::size_t i = 0; i < list().size(); ++i) {
       if (list()[i].state != DiscPhase::State::stick) continue;
       const DiscPhase* slip = short_slip_after(i);
@@ -277,14 +273,14 @@ class Contact3dCorners final : public Corners {
   // |x - w| - R and its slope and second derivative.
   Vector2d slope_in_rest(double theta, const Vector2d& w) const {
     const DiscPoint p = disc_.at(theta);
-    const Vector2d y = p.x - w, n = y.normalized(), t = turned(n);
+    const Vector2d y = p.x - w, n = y.normalized(), t = quarter_turn(n);
     const double across = t.dot(p.v);
     return {n.dot(p.v) - p.dh, n.dot(p.a) - p.ddh + across * across / y.norm()};
   }
 
   bool polish_in_rest(double& theta, const Vector2d& w) const {
     const double begin = theta;
-    for (int k = 0; k < newton_steps; ++k) {
+    for (int k = 0; k < corner_newton_steps; ++k) {
       const Vector2d slope = slope_in_rest(theta, w);
       if (!(slope[1] < 0)) return false;
       const double step = -slope[0] / slope[1];
@@ -299,7 +295,7 @@ class Contact3dCorners final : public Corners {
     const auto count = static_cast<Eigen::Index>(corner.angles.size());
     Equations at(3 * c_, static_cast<int>(count), 4);
     const std::vector<double> begin = corner.angles;
-    for (int k = 0; k < newton_steps; ++k) {
+    for (int k = 0; k < corner_newton_steps; ++k) {
       at.by_angle.setZero();
       rows_.setZero(1 + count, 3 * c_);
       corner.guard == stick_of_two ? set_two(corner.angles, at) : set_three(corner.angles, at);
@@ -346,7 +342,7 @@ class Contact3dCorners final : public Corners {
       const double turn = corner.angles[0] - other.angles[0];
       for (std::size_t i = 1; i < corner.angles.size(); ++i) {
         const double apart = corner.angles[i] - other.angles[i] - turn;
-        if (std::abs(std::remainder(apart, turn_angle)) > same_place) return false;
+        if (std::abs(std::remainder(apart, whole_turn)) > same_corner_angle) return false;
       }
       for (int i = 0; i < 3; ++i)
         if (!is_image(h_, w_.segment(i * c_, c_), turn, 1)) return false;

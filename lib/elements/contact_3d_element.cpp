@@ -9,8 +9,6 @@
 namespace arcslip::elements {
 namespace {
 
-enum { tangential_stiffness, normal_stiffness, friction_coefficient, normal_load, field_count };
-
 constexpr double least_slip = 1e-8;    // of the radius: less beyond full stick leaves derivatives few digits
 constexpr double frictionless = 1e-7;  // radius of the disc, of the motion, that stands for the limit 0
 
@@ -44,9 +42,10 @@ class Contact3dElement final : public Element {
 
   void move_to(In u, Fields fields, bool jacobian) override {
     std::copy(fields.begin(), fields.end(), fields_);
-    const double k_t = fields[tangential_stiffness], mu = fields[friction_coefficient];
+    const double k_t = fields[contact_field::tangential_stiffness],
+                 mu = fields[contact_field::friction_coefficient];
     u_n_ = u.tail(c_);
-    normal_.move_to(u_n_, fields[normal_stiffness], fields[normal_load]);
+    normal_.move_to(u_n_, fields[contact_field::normal_stiffness], fields[contact_field::normal_load]);
     F_.tail(c_) = normal_.force();
     radius_ = mu / k_t * normal_.load();
     disc_.set(u.head(c_), u.segment(c_, c_), radius_);
@@ -75,25 +74,25 @@ class Contact3dElement final : public Element {
 
   void field_derivative(int field, Out dF) const override {
     dF.setZero();
-    const double mu = fields_[friction_coefficient];
-    if (field == normal_stiffness) dF.tail(c_) = normal_.by_stiffness();
-    if (field == normal_load) dF.tail(c_) = normal_.by_load();
-    if (rigid_ || (!(k_ > 0) && field != friction_coefficient)) return;
+    const double mu = fields_[contact_field::friction_coefficient];
+    if (field == contact_field::normal_stiffness) dF.tail(c_) = normal_.by_stiffness();
+    if (field == contact_field::normal_load) dF.tail(c_) = normal_.by_load();
+    if (rigid_ || (!(k_ > 0) && field != contact_field::friction_coefficient)) return;
     differentiate();
     const auto by_radius = derivative_.rightCols(c_);
     auto T = dF.head(2 * c_);
-    if (field == tangential_stiffness)  // h is mu N/k_t
+    if (field == contact_field::tangential_stiffness)  // h is mu N/k_t
       T = stretch_.coefficients() - by_radius * radius_;
-    else if (field == normal_stiffness)
+    else if (field == contact_field::normal_stiffness)
       T = mu * (by_radius * u_n_);
-    else if (field == friction_coefficient)
+    else if (field == contact_field::friction_coefficient)
       T = by_radius * normal_.load();
     else
       T = mu * by_radius.col(0);
   }
 
   std::uint64_t piece() const override {
-    const std::uint64_t side = fields_[normal_load] <= 0 ? ~std::uint64_t{0} : 0;
+    const std::uint64_t side = fields_[contact_field::normal_load] <= 0 ? ~std::uint64_t{0} : 0;
     if (!(k_ > 0) || rigid_) return ((normal_.opens() ? 1 : 0) + 2 * normal_.closed().size()) ^ side;
     return stretch_.phases().sequence() ^ side;
   }
@@ -157,18 +156,18 @@ class Contact3dElement final : public Element {
   }
 
   void set_jacobian() {
-    const double mu = fields_[friction_coefficient];
+    const double mu = fields_[contact_field::friction_coefficient];
     J_.setZero();
     normal_.jacobian(J_.bottomRightCorner(c_, c_));
     if (rigid_ || !(k_ > 0)) return;
     differentiate();
     J_.topLeftCorner(2 * c_, 2 * c_) = k_ * derivative_.leftCols(2 * c_);
-    J_.topRightCorner(2 * c_, c_) = mu * fields_[normal_stiffness] * derivative_.rightCols(c_);
+    J_.topRightCorner(2 * c_, c_) = mu * fields_[contact_field::normal_stiffness] * derivative_.rightCols(c_);
   }
 
   Harmonics h_;
   Eigen::Index c_;
-  double fields_[field_count] = {};
+  double fields_[contact_field::count] = {};
   double k_ = 0;  // stiffness_in_use()
   NormalContact normal_;
   Disc disc_;
@@ -191,8 +190,9 @@ std::unique_ptr<Element> make_contact_3d(const Harmonics& harmonics) {
 
 Eigen::MatrixXd contact_3d_force(const Harmonics& h, In u, Fields fields, Angles angles) {
   const Eigen::Index c = h.size();
-  const double k_t = fields[tangential_stiffness], k_n = fields[normal_stiffness],
-               mu = fields[friction_coefficient], N_0 = fields[normal_load];
+  const double k_t = fields[contact_field::tangential_stiffness],
+               k_n = fields[contact_field::normal_stiffness],
+               mu = fields[contact_field::friction_coefficient], N_0 = fields[contact_field::normal_load];
   NormalContact normal(h);
   normal.move_to(u.tail(c), k_n, N_0);
   Disc disc(h);

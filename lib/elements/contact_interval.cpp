@@ -1,19 +1,20 @@
 #include <arcslip/elements/contact_interval.hpp>
 
+#include <arcslip/elements/harmonics.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace arcslip::elements {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-constexpr double least = 1e-12;  // rad: shorter ones are rounding
+constexpr double least_interval = 1e-12;  // rad: shorter ones are rounding
 
 }  // namespace
 
 void put_in_order(std::vector<ContactInterval>& intervals) {
-  std::erase_if(intervals, [](const ContactInterval& each) { return !(each.end - each.begin > least); });
+  std::erase_if(intervals,
+                [](const ContactInterval& each) { return !(each.end - each.begin > least_interval); });
   std::size_t count = 0;  // of those that are joined
   for (const ContactInterval& each : intervals) {
     if (count > 0 && intervals[count - 1].state == each.state)
@@ -22,11 +23,11 @@ void put_in_order(std::vector<ContactInterval>& intervals) {
       intervals[count++] = each;
   }
   if (count > 1 && intervals[count - 1].state == intervals[0].state)
-    intervals[0].begin = intervals[--count].begin - turn;
+    intervals[0].begin = intervals[--count].begin - whole_turn;
   intervals.resize(count);
-  if (count == 1) intervals[0] = {intervals[0].state, 0, turn};
+  if (count == 1) intervals[0] = {intervals[0].state, 0, whole_turn};
   for (ContactInterval& each : intervals) {
-    const double shift = turn * std::floor(each.begin / turn);
+    const double shift = whole_turn * std::floor(each.begin / whole_turn);
     each.begin -= shift;
     each.end -= shift;
   }

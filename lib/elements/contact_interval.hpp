@@ -6,6 +6,10 @@
 
 namespace arcslip::elements {
 
+/// rad: slip so short before separation, as where the bound and the slider meet just there, would come and go
+/// by rounding.
+inline constexpr double negligible_slip = 1e-9;
+
 /// state: the name of a mode in time (automaton.hpp), a literal: "stick"; "slip+" and "slip-", by the sign of
 /// the friction force, and "slip" where it has several directions; "open", "closed"; "closed+" and "closed-"
 /// where a spring has one contact at each side.

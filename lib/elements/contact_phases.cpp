@@ -3,26 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace arcslip::elements {
 namespace {
 
-constexpr double turn_angle = 2 * std::numbers::pi;
-constexpr double same_angle = 1e-6;   // rad: reversals of both bounds, where the load is constant
-constexpr double same_value = 1e-12;  // of the size of the motion
-// rad: slip so short before separation, as where the bound and the slider meet just there, would come and go
-// by rounding.
-constexpr double negligible = 1e-9;
-constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double same_reversals = 1e-6;  // rad: reversals of both bounds, where the load is constant
+constexpr double same_bounds = 1e-12;    // of the size of the motion
+constexpr double no_onset = std::numeric_limits<double>::infinity();
 
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
-
-std::uint64_t code(const ContactPhase& phase) {
+std::uint64_t contact_phase_code(const ContactPhase& phase) {
   const int state = static_cast<int>(phase.state), rest = static_cast<int>(phase.rest.at);
   return static_cast<std::uint64_t>(1 + state + 3 * (rest + 3 * (1 + static_cast<int>(phase.sign))));
 }
@@ -42,13 +31,13 @@ Reversal ContactPhases::Bound::turn(long i) const {
   const long n = static_cast<long>(turns.size());
   const long turns_before = i >= 0 ? i / n : -((n - 1 - i) / n);
   Reversal at = turns[static_cast<std::size_t>(i - turns_before * n)];
-  at.theta += static_cast<double>(turns_before) * turn_angle;
+  at.theta += static_cast<double>(turns_before) * whole_turn;
   return at;
 }
 
 long ContactPhases::Bound::piece(double theta) const {
-  const double before = std::floor((theta - turns.front().theta) / turn_angle);
-  const double angle = theta - before * turn_angle;
+  const double before = std::floor((theta - turns.front().theta) / whole_turn);
+  const double angle = theta - before * whole_turn;
   const auto after = std::upper_bound(turns.begin(), turns.end(), angle,
                                       [](double t, const Reversal& at) { return t < at.theta; });
   return static_cast<long>(before) * static_cast<long>(turns.size()) + (after - turns.begin()) - 1;
@@ -69,7 +58,7 @@ const std::vector<ContactPhase>& ContactPhases::find(In u_t, In u_n, const Conta
   lower_.turns.clear();
   upper_.turns.clear();
   if (closed.empty()) {
-    phases_.push_back({ContactPhase::State::open, 0, turn_angle});
+    phases_.push_back({ContactPhase::State::open, 0, whole_turn});
     return phases_;
   }
   lower_.turns = reversals_.find(lower_.u);
@@ -78,7 +67,7 @@ const std::vector<ContactPhase>& ContactPhases::find(In u_t, In u_n, const Conta
     for (std::size_t i = 0; i < closed.size(); ++i) {
       const auto [begin, end] = closed[i];
       sweep({SliderRest::At::closing, begin, series_values(harmonics_, u_t, begin).x}, end);
-      const double next = i + 1 < closed.size() ? closed[i + 1].first : closed[0].first + turn_angle;
+      const double next = i + 1 < closed.size() ? closed[i + 1].first : closed[0].first + whole_turn;
       phases_.push_back({ContactPhase::State::open, end, next});
     }
     return phases_;
@@ -93,14 +82,14 @@ const std::vector<ContactPhase>& ContactPhases::find(In u_t, In u_n, const Conta
   choose_nearest();
   full_stick_ = largest_lower_.x <= smallest_upper_.x;
   if (full_stick_) {
-    ContactPhase phase{ContactPhase::State::stick, 0, turn_angle};
+    ContactPhase phase{ContactPhase::State::stick, 0, whole_turn};
     held_ = stuck_slider(offset_, largest_lower_.x, smallest_upper_.x, share_);
     phase.rest.w = held_.lower * largest_lower_.x + held_.upper * smallest_upper_.x;
     phases_.push_back(phase);
   } else {
     // w <= b < a since the upper bound was at b, and a at the largest value of the lower one.
     sweep({SliderRest::At::lower_reversal, largest_lower_.theta, largest_lower_.x},
-          largest_lower_.theta + turn_angle);
+          largest_lower_.theta + whole_turn);
   }
   return phases_;
 }
@@ -108,15 +97,15 @@ const std::vector<ContactPhase>& ContactPhases::find(In u_t, In u_n, const Conta
 // A motion of a part of the period has its extremes several times, equal but for rounding: the nearest two.
 void ContactPhases::choose_nearest() {
   const double same =
-      same_value * (series_bound(harmonics_, lower_.u, 0) + series_bound(harmonics_, upper_.u, 0));
+      same_bounds * (series_bound(harmonics_, lower_.u, 0) + series_bound(harmonics_, upper_.u, 0));
   const double a = largest_lower_.x, b = smallest_upper_.x;
-  double nearest = never;
+  double nearest = std::numeric_limits<double>::infinity();
   for (const Reversal& lower : lower_.turns)
     for (const Reversal& upper : upper_.turns) {
       if (lower.x < a - same || upper.x > b + same) continue;
       double apart = upper.theta - lower.theta;
-      if (apart < 0) apart += turn_angle;
-      if (apart >= nearest - same_angle) continue;
+      if (apart < 0) apart += whole_turn;
+      if (apart >= nearest - same_reversals) continue;
       nearest = apart;
       largest_lower_.theta = lower.theta;
       smallest_upper_.theta = upper.theta;
@@ -126,14 +115,14 @@ void ContactPhases::choose_nearest() {
 // Where the bound reaches w from the side it comes from, in a piece that begins before `until`.
 ContactPhases::Onset ContactPhases::onset(const Bound& bound, bool upwards, double begin, double end,
                                           double until, double w) const {
-  if (bound.turns.empty()) return {never, 0};
+  if (bound.turns.empty()) return {no_onset, 0};
   for (long i = bound.piece(begin);; ++i) {
     const Reversal from = bound.turn(i), to = bound.turn(i + 1);
-    if (from.theta >= until) return {never, 0};
+    if (from.theta >= until) return {no_onset, 0};
     if (to.theta <= begin) continue;  // the index of the piece is that of a rounded angle
     if ((to.x > from.x) != upwards || (upwards ? to.x <= w : to.x >= w)) continue;
     const double at = std::max(reversals_.crossing(bound.u, from, to, w), begin);
-    return {at < end - negligible ? at : never, i};
+    return {at < end - negligible_slip ? at : no_onset, i};
   }
 }
 
@@ -161,7 +150,7 @@ void ContactPhases::sweep(SliderRest rest, double end) {
     const Onset& first = up.theta <= down.theta ? up : down;
     const double until = std::min(first.theta, end);
     phases_.push_back({ContactPhase::State::stick, rest.theta, until, 0, rest});
-    if (first.theta == never) return;
+    if (first.theta == no_onset) return;
     slip(up.theta <= down.theta ? 1 : -1, first, end, rest);
   }
 }
@@ -178,20 +167,20 @@ std::uint64_t ContactPhases::sequence_of_phases() const {
     const std::uint64_t bounds = at_lower && at_upper ? 0 : at_lower ? 1 : 2;
     const auto after_a = [&](double theta) {
       const double after = theta - largest_lower_.theta;
-      return after < 0 ? after + turn_angle : after;
+      return after < 0 ? after + whole_turn : after;
     };
     const double b = after_a(smallest_upper_.theta);
     std::uint64_t between = 0, beyond = 0;
     for (const Reversal& at : lower_.turns)
-      if (after_a(at.theta) > same_angle && after_a(at.theta) < b - same_angle) ++between;
+      if (after_a(at.theta) > same_reversals && after_a(at.theta) < b - same_reversals) ++between;
     for (const Reversal& at : upper_.turns)
-      if (after_a(at.theta) > b + same_angle && after_a(at.theta) < turn_angle - same_angle) ++beyond;
+      if (after_a(at.theta) > b + same_reversals && after_a(at.theta) < whole_turn - same_reversals) ++beyond;
     return 3 + between + 4096 * beyond + (bounds << 32);
   }
   std::uint64_t sum = 1;
   for (std::size_t i = 0; i < phases_.size(); ++i) {
     const ContactPhase& next = phases_[i + 1 == phases_.size() ? 0 : i + 1];
-    sum += mixed(64 * code(phases_[i]) + code(next));
+    sum += mixed_bits(64 * contact_phase_code(phases_[i]) + contact_phase_code(next));
   }
   return sum;
 }
@@ -200,7 +189,7 @@ void ContactPhases::tell(FrictionState& state) const {
   state.slip_onsets.clear();
   state.slip_ends.clear();
   double stuck = 0, open = 0;
-  const auto wrapped = [](double angle) { return angle - std::floor(angle / turn_angle) * turn_angle; };
+  const auto wrapped = [](double angle) { return angle - std::floor(angle / whole_turn) * whole_turn; };
   for (const ContactPhase& phase : phases_) {
     if (phase.state == ContactPhase::State::stick) stuck += phase.end - phase.begin;
     if (phase.state == ContactPhase::State::open) open += phase.end - phase.begin;
@@ -210,8 +199,8 @@ void ContactPhases::tell(FrictionState& state) const {
   }
   std::sort(state.slip_onsets.begin(), state.slip_onsets.end());
   std::sort(state.slip_ends.begin(), state.slip_ends.end());
-  state.stick_share = full_stick_ ? 1 : stuck / turn_angle;
-  state.open_share = normal_.closed().empty() ? 1 : open / turn_angle;
+  state.stick_share = full_stick_ ? 1 : stuck / whole_turn;
+  state.open_share = normal_.closed().empty() ? 1 : open / whole_turn;
   normal_.tell(state);
 }
 

@@ -13,6 +13,8 @@
 
 namespace arcslip::elements {
 
+inline constexpr double same_corner_angle = 1e-9;  // rad: angles so close are one
+
 struct Corner {
   int guard = 0;               // index of the condition, numbered by the law
   std::vector<double> angles;  // rad

@@ -10,13 +10,12 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_bend = 1e-8;  // of the bound of |q''|: of reversals that are found apart
 constexpr double largest = 1e150;    // so that products stay finite
 
-enum { friction_coefficient_field, normal_load_field };
+enum { coulomb_coefficient_field, coulomb_load_field };
 
-constexpr scene::Field all_fields[] = {
+constexpr scene::Field coulomb_fields[] = {
     {.name = "friction_coefficient",
      .unit = "-",
      .lower = 0,
@@ -29,8 +28,8 @@ constexpr scene::Field all_fields[] = {
      .help = "normal load; force = friction_coefficient * normal_load against the velocity"},
 };
 
-double limit(Fields fields) {
-  return fields[friction_coefficient_field] * fields[normal_load_field];
+double coulomb_limit(Fields fields) {
+  return fields[coulomb_coefficient_field] * fields[coulomb_load_field];
 }
 
 double sign(double v) {
@@ -49,9 +48,9 @@ class CoulombElement final : public Element {
         J_(Eigen::MatrixXd::Zero(h.size(), h.size())) {}
 
   void move_to(In u, Fields fields, bool jacobian) override {
-    for (int k : {friction_coefficient_field, normal_load_field})
+    for (int k : {coulomb_coefficient_field, coulomb_load_field})
       fields_[static_cast<std::size_t>(k)] = fields[static_cast<std::size_t>(k)];
-    const double p = limit(fields), kappa = (h_.odd ? 2 : 1) / std::numbers::pi;
+    const double p = coulomb_limit(fields), kappa = (h_.odd ? 2 : 1) / std::numbers::pi;
     sign_.move_to(u);
     for (int i = 0; i < h_.cosines(); ++i) shape_[i] = kappa * sign_.integral(h_.cosine_order(i)).real();
     for (int j = 0; j < h_.sines(); ++j)
@@ -73,8 +72,8 @@ class CoulombElement final : public Element {
   const Eigen::VectorXd& force() const override { return F_; }
   const Eigen::MatrixXd& jacobian() const override { return J_; }
   void field_derivative(int field, Out dF) const override {
-    dF = fields_[field == friction_coefficient_field ? normal_load_field : friction_coefficient_field] *
-         shape_;
+    dF =
+        fields_[field == coulomb_coefficient_field ? coulomb_load_field : coulomb_coefficient_field] * shape_;
   }
   std::uint64_t piece() const override { return sign_.reversals().size(); }
   double jump_over_bend() const override { return jump_over_bend_; }
@@ -103,13 +102,13 @@ class Coulomb final : public PlainLaw {
  public:
   std::string_view name() const override { return "coulomb"; }
   std::string_view help() const override { return "rigid Coulomb friction, of motions without stops"; }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override { return coulomb_fields; }
 
   bool antisymmetric() const override { return true; }
   bool dissipative() const override { return true; }
   bool set_valued() const override { return true; }
   Traits traits(Fields fields, int) const override {
-    return {.far_work = 4 * limit(fields), .limit = limit(fields)};
+    return {.far_work = 4 * coulomb_limit(fields), .limit = coulomb_limit(fields)};
   }
   double stiffness(Fields, int, double) const override { return 0; }  // of a motion
 
@@ -119,14 +118,14 @@ class Coulomb final : public PlainLaw {
   Eigen::MatrixXd force_at(const Harmonics& h, In u, Fields fields, Angles angles) const override {
     Eigen::MatrixXd f(static_cast<Eigen::Index>(angles.size()), 1);
     for (std::size_t i = 0; i < angles.size(); ++i)
-      f(static_cast<Eigen::Index>(i), 0) = limit(fields) * sign(series_values(h, u, angles[i]).d1);
+      f(static_cast<Eigen::Index>(i), 0) = coulomb_limit(fields) * sign(series_values(h, u, angles[i]).d1);
     return f;
   }
 
   void begin(Fields, In, Out, StepEnd& at) const override { at.f[0] = 0; }
   void step(Fields fields, const StepStart&, In dq, StepEnd& end) const override {
-    end.f[0] = limit(fields) * sign(dq[0]);
-    end.dissipated = limit(fields) * std::abs(dq[0]);
+    end.f[0] = coulomb_limit(fields) * sign(dq[0]);
+    end.dissipated = coulomb_limit(fields) * std::abs(dq[0]);
   }
   double stored(Fields, In, In) const override { return 0; }
 };

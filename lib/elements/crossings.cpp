@@ -9,8 +9,8 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr int most_halvings = 3;    // of a sampling step, before its reversals are found
-constexpr double rounding = 1e-12;  // of the farthest that the motion may come from its mean
+constexpr int most_halvings = 3;          // of a sampling step, before its reversals are found
+constexpr double level_rounding = 1e-12;  // of the farthest that the motion may come from its mean
 
 }  // namespace
 
@@ -35,7 +35,7 @@ const std::vector<Crossing>& Crossings::find(In u, double level, Reversals& reve
   M_ = series_bound(harmonics_, u, 2);
   above_ = u[0] > level;
   if (!(M_ > 0) || !std::isfinite(M_) || !std::isfinite(level)) return found_;
-  if (std::abs(u[0] - level) > (1 + rounding) * series_bound(harmonics_, u, 0)) return found_;
+  if (std::abs(u[0] - level) > (1 + level_rounding) * series_bound(harmonics_, u, 0)) return found_;
   samples_.noalias() = values_ * u;
   samples_.array() -= level;
   const double near = M_ * step_ * step_ / 8;

@@ -7,7 +7,7 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr scene::Field all_fields[] = {
+constexpr scene::Field cubic_spring_fields[] = {
     {.name = "stiffness",
      .unit = "N/m^3",
      .lower = -std::numeric_limits<double>::infinity(),
@@ -19,7 +19,7 @@ class CubicSpring final : public SampledLaw {
  public:
   std::string_view name() const override { return "cubic_spring"; }
   std::string_view help() const override { return "a cubic spring, hardening or softening"; }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override { return cubic_spring_fields; }
 
   bool antisymmetric() const override { return true; }
   Traits traits(Fields fields, int) const override {

@@ -8,6 +8,11 @@
 
 namespace arcslip::elements {
 
+/// n turned by a right angle, counterclockwise.
+inline Eigen::Vector2d quarter_turn(const Eigen::Vector2d& n) {
+  return {-n[1], n[0]};
+}
+
 /// At one angle, with derivatives by it.
 struct DiscPoint {
   Eigen::Vector2d x, v, a;  // x, x', x''

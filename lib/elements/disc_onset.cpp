@@ -4,16 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace arcslip::elements {
 namespace {
 
-constexpr double turn_angle = 2 * std::numbers::pi;
 constexpr double least_step = 1e-10;  // rad
 constexpr int most_steps = 10000;
-constexpr int newton_steps = 40;
+constexpr int onset_newton_steps = 40;
 
 // A lower bound of the first positive root of a polynomial that begins with positive coefficients: the root
 // of the one without the positive coefficients behind a negative one, which has one root. At most `most`.
@@ -29,7 +27,7 @@ double first_root(const std::array<double, 7>& c, double most) {
     return std::pair(value, slope);
   };
   double below = 0, above = most, s = most;
-  for (int i = 0; i < newton_steps; ++i) {
+  for (int i = 0; i < onset_newton_steps; ++i) {
     const auto [value, slope] = at(s);
     if (value >= 0) {
       below = s;
@@ -73,7 +71,7 @@ double slip_onset(const Disc& disc, const Eigen::Vector2d& w, bool at_edge, doub
     const double step = first_root(c, end - theta);
     if (edge_now)
       theta += std::max(0.5 * step, least_step);
-    else if (c[1] < 0 && !(step > 1e-15 * turn_angle))
+    else if (c[1] < 0 && !(step > 1e-15 * whole_turn))
       return theta;
     else
       theta += c[1] < 0 ? step : std::max(step, least_step);

@@ -7,23 +7,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace arcslip::elements {
 namespace {
 
-constexpr double turn_angle = 2 * std::numbers::pi;
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double resolved = 1e-10;      // of h psi within a panel, of the largest radius
-constexpr double same_value = 1e-13;    // of the motion
+constexpr double same_slider = 1e-13;   // of the motion
 constexpr double shortest = 1e-12;      // rad: a panel that is not divided any further
-constexpr double negligible = 1e-9;     // rad: slip so short before separation would come and go by rounding
 constexpr double same_end = 1e-6;       // rad: slip that ends so near to the end of the period began it
 constexpr double edge = 1e-12;          // of the radius: a slider that is so close is at the edge
 constexpr double phase_per_panel = 12;  // rad, of the highest harmonic
 constexpr std::size_t most_panels = 20000;
-constexpr int newton_steps = 40, passes = 200;
+constexpr int rest_newton_steps = 40, rest_passes = 200;
 constexpr double shortest_share = 0.01;  // of Newton's step
 
 Eigen::Vector2d direction(double psi) {
@@ -33,13 +30,7 @@ Eigen::Vector2d across(double psi) {
   return {-std::sin(psi), std::cos(psi)};
 }
 
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
-
-std::uint64_t code(const DiscPhase& phase) {
+std::uint64_t disc_phase_code(const DiscPhase& phase) {
   const auto from = phase.from == DiscPhase::Begin::start ? DiscPhase::Begin::slip_end : phase.from;
   return static_cast<std::uint64_t>(1 + static_cast<int>(phase.state) + 3 * static_cast<int>(from));
 }
@@ -188,7 +179,7 @@ void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, do
     if (!state.slips) {
       const bool at_edge = from == DiscPhase::Begin::closing || from == DiscPhase::Begin::slip_end;
       double until = phases_.size() - first > most ? never : slip_onset(disc, state.w, at_edge, theta, end);
-      if (opens_ && until >= end - negligible) until = never;
+      if (opens_ && until >= end - negligible_slip) until = never;
       phase.state = DiscPhase::State::stick;
       phase.w = state.w;
       phase.end = std::min(until, end);
@@ -222,7 +213,7 @@ void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, do
                                                                : slider(p, state) - before;
       phases_.push_back(phase);
     }
-    if (end - until < (closes ? same_end : negligible)) return;
+    if (end - until < (closes ? same_end : negligible_slip)) return;
     if (ends) {
       state.w = p.x - std::max(p.h, 0.0) * direction(state.psi);
       state.slips = false;
@@ -245,7 +236,7 @@ DiscPhases::Period DiscPhases::period(const Disc& disc, double begin, const Eige
   panels_.clear();
   State state = at_rest(disc, begin, w);
   Period map{{0, 0}, Eigen::Matrix2d::Identity()};
-  march(disc, state, DiscPhase::Begin::start, begin, begin + turn_angle, &map.by);
+  march(disc, state, DiscPhase::Begin::start, begin, begin + whole_turn, &map.by);
   map.moved = state.moved;
   return map;
 }
@@ -256,11 +247,11 @@ DiscPhases::Period DiscPhases::period(const Disc& disc, double begin, const Eige
 double DiscPhases::iterate(const Disc& disc, double enough, Eigen::Vector2d& w) {
   Period map = period(disc, 0, w);
   double left = map.moved.norm();
-  for (int i = 0; i < passes && map.moved.norm() > 0; ++i) {
+  for (int i = 0; i < rest_passes && map.moved.norm() > 0; ++i) {
     left = map.moved.norm();
     const Eigen::Matrix2d A = Eigen::Matrix2d::Identity() - map.by;
     bool better = false;
-    if (i < newton_steps && A.determinant() > 1e-15) {
+    if (i < rest_newton_steps && A.determinant() > 1e-15) {
       const Eigen::Matrix2d inverse = A.inverse();
       const Eigen::Vector2d step = inverse * map.moved;
       left = step.norm();
@@ -283,7 +274,7 @@ double DiscPhases::iterate(const Disc& disc, double enough, Eigen::Vector2d& w) 
 }
 
 void DiscPhases::find_periodic(const Disc& disc) {
-  const double size = disc.motion_bound(0) + disc.radius_bound(0), same = same_value * size;
+  const double size = disc.motion_bound(0) + disc.radius_bound(0), same = same_slider * size;
   Eigen::Vector2d w = at_rest(disc, 0, centre_.w()).w;
   const double error = iterate(disc, same, w);
   periodic_ = error <= 1e3 * same;
@@ -296,14 +287,14 @@ void DiscPhases::find_periodic(const Disc& disc) {
     State state{true, w, panels_.back().to()};
     phases_.clear();
     panels_.clear();
-    march(disc, state, DiscPhase::Begin::start, 0, turn_angle, nullptr);
+    march(disc, state, DiscPhase::Begin::start, 0, whole_turn, nullptr);
     return;
   }
   const DiscPhase first = *rest;
   phases_.clear();
   panels_.clear();
   State state{false, first.w, 0};
-  march(disc, state, DiscPhase::Begin::slip_end, first.begin, first.begin + turn_angle, nullptr);
+  march(disc, state, DiscPhase::Begin::slip_end, first.begin, first.begin + whole_turn, nullptr);
 }
 
 const std::vector<DiscPhase>& DiscPhases::find(const Disc& disc,
@@ -317,7 +308,7 @@ const std::vector<DiscPhase>& DiscPhases::find(const Disc& disc,
   opens_ = opens;
   tolerance_ = resolved * disc.largest();
   if (closed.empty()) {
-    phases_.push_back({DiscPhase::State::open, DiscPhase::Begin::opening, 0, turn_angle});
+    phases_.push_back({DiscPhase::State::open, DiscPhase::Begin::opening, 0, whole_turn});
     return phases_;
   }
   if (opens) {
@@ -325,15 +316,15 @@ const std::vector<DiscPhase>& DiscPhases::find(const Disc& disc,
       const auto [begin, end] = closed[i];
       State state = closing(disc, begin);
       march(disc, state, DiscPhase::Begin::closing, begin, end, nullptr);
-      const double next = i + 1 < closed.size() ? closed[i + 1].first : closed[0].first + turn_angle;
+      const double next = i + 1 < closed.size() ? closed[i + 1].first : closed[0].first + whole_turn;
       phases_.push_back({DiscPhase::State::open, DiscPhase::Begin::opening, end, next});
     }
     return phases_;
   }
   centre_.find(disc);
-  full_stick_ = centre_.r() <= same_value * disc.motion_bound(0);
+  full_stick_ = centre_.r() <= same_slider * disc.motion_bound(0);
   if (full_stick_) {
-    DiscPhase phase{DiscPhase::State::stick, DiscPhase::Begin::start, 0, turn_angle};
+    DiscPhase phase{DiscPhase::State::stick, DiscPhase::Begin::start, 0, whole_turn};
     phase.w = centre_.w();
     phases_.push_back(phase);
   } else {
@@ -345,7 +336,7 @@ const std::vector<DiscPhase>& DiscPhases::find(const Disc& disc,
 
 Eigen::Vector2d DiscPhases::stretch(const Disc& disc, double theta) const {
   const double begin = phases_.front().begin;
-  theta -= std::floor((theta - begin) / turn_angle) * turn_angle;
+  theta -= std::floor((theta - begin) / whole_turn) * whole_turn;
   const auto after = std::upper_bound(phases_.begin(), phases_.end(), theta,
                                       [](double at, const DiscPhase& phase) { return at < phase.begin; });
   const DiscPhase& phase = after == phases_.begin() ? phases_.front() : *(after - 1);
@@ -363,7 +354,7 @@ std::uint64_t DiscPhases::sequence() const {
   std::uint64_t sum = 1;
   for (std::size_t i = 0; i < phases_.size(); ++i) {
     const DiscPhase& next = phases_[i + 1 == phases_.size() ? 0 : i + 1];
-    sum += mixed(64 * code(phases_[i]) + code(next));
+    sum += mixed_bits(64 * disc_phase_code(phases_[i]) + disc_phase_code(next));
   }
   return sum;
 }
@@ -372,7 +363,7 @@ void DiscPhases::tell(FrictionState& state) const {
   state.slip_onsets.clear();
   state.slip_ends.clear();
   double stuck = 0, open = 0;
-  const auto wrapped = [](double angle) { return angle - std::floor(angle / turn_angle) * turn_angle; };
+  const auto wrapped = [](double angle) { return angle - std::floor(angle / whole_turn) * whole_turn; };
   for (const DiscPhase& phase : phases_) {
     if (phase.state == DiscPhase::State::stick) stuck += phase.end - phase.begin;
     if (phase.state == DiscPhase::State::open) open += phase.end - phase.begin;
@@ -383,8 +374,8 @@ void DiscPhases::tell(FrictionState& state) const {
   }
   std::sort(state.slip_onsets.begin(), state.slip_onsets.end());
   std::sort(state.slip_ends.begin(), state.slip_ends.end());
-  state.stick_share = full_stick_ ? 1 : stuck / turn_angle;
-  state.open_share = open / turn_angle;
+  state.stick_share = full_stick_ ? 1 : stuck / whole_turn;
+  state.open_share = open / whole_turn;
 }
 
 void DiscPhases::tell(std::vector<ContactInterval>& intervals) const {

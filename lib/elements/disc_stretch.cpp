@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace arcslip::elements {
 namespace {
 
-constexpr double kappa = 1 / std::numbers::pi;
 constexpr int batch = 8;  // panels in one product of matrices
 
 double tangent(int i, double psi) {
@@ -97,12 +95,12 @@ void DiscStretch::integrate() {
       powers(0.5 * (phase.begin + phase.end), static_cast<int>(middle_.size()), middle_.data());
       powers(0.5 * (phase.end - phase.begin), static_cast<int>(half_.size()), half_.data());
       stick_.add_interval(phase.end - phase.begin, middle_.data(), half_.data());
-      for (int i = 0; i < 2; ++i) S_.segment(i * c_, c_) -= kappa * phase.w[i] * g_;
+      for (int i = 0; i < 2; ++i) S_.segment(i * c_, c_) -= fourier_factor * phase.w[i] * g_;
     }
     if (phase.state != DiscPhase::State::slip) continue;
     for (std::size_t k = phase.first_panel; k < phase.last_panel; ++k) {
       const SlipPanel& panel = phases_.panel(k);
-      const SlipPanel::Nodes weights = kappa * phases_.collocation().weights(panel);
+      const SlipPanel::Nodes weights = fourier_factor * phases_.collocation().weights(panel);
       set_bases(panel);
       for (int j = 0; j < panel_nodes; ++j) {
         const double factor = weights[j] * panel.h[j];
@@ -113,7 +111,7 @@ void DiscStretch::integrate() {
   }
   stick_.close();
   if (sticks)
-    for (int i = 0; i < 2; ++i) stick_.times(disc_->coefficients(i), kappa, S_.segment(i * c_, c_));
+    for (int i = 0; i < 2; ++i) stick_.times(disc_->coefficients(i), fourier_factor, S_.segment(i * c_, c_));
   S_[0] *= 0.5;
   S_[c_] *= 0.5;
 }
@@ -148,7 +146,7 @@ void DiscStretch::differentiate() {
   }
   add_nodes();
   for (int i = 0; i < 2; ++i) {
-    if (sticks) stick_.add_to(by_.block(i * c_, i * c_, c_, c_), kappa);
+    if (sticks) stick_.add_to(by_.block(i * c_, i * c_, c_, c_), fourier_factor);
     slipping_[i].close();
     slipping_[i].add_to(by_.block(i * c_, 2 * c_, c_, c_), 1);
   }
@@ -215,14 +213,14 @@ void DiscStretch::begin(const DiscPhase& phase) {
 
 void DiscStretch::stick(const DiscPhase& phase) {
   integrate_basis(phase.begin, phase.end);
-  for (int i = 0; i < 2; ++i) by_.middleRows(i * c_, c_).noalias() -= kappa * g_ * dw_.row(i);
+  for (int i = 0; i < 2; ++i) by_.middleRows(i * c_, c_).noalias() -= fourier_factor * g_ * dw_.row(i);
 }
 
 void DiscStretch::slip(const DiscPhase& phase) {
   for (std::size_t k = phase.first_panel; k < phase.last_panel; ++k) {
     if (filled_ == rows_.rows()) add_nodes();
     const SlipPanel& panel = phases_.panel(k);
-    const SlipPanel::Nodes weights = kappa * phases_.collocation().weights(panel);
+    const SlipPanel::Nodes weights = fourier_factor * phases_.collocation().weights(panel);
     set_bases(panel);
     auto rows = rows_.middleRows(filled_, panel_nodes);
     auto weighted = weighted_.middleRows(filled_, panel_nodes);

@@ -29,6 +29,14 @@ struct FrictionState {
   double mean_min = std::numeric_limits<double>::quiet_NaN(), mean_max = mean_min;
 };
 
+/// A number with all bits of x mixed, of which sums may be taken to number what a contact does: the last step
+/// of SplitMix64.
+inline std::uint64_t mixed_bits(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
 /// For one set of harmonics; owns its buffers. move_to() does not allocate.
 class Element {
  public:

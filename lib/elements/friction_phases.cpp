@@ -3,11 +3,6 @@
 #include <algorithm>
 
 namespace arcslip::elements {
-namespace {
-
-constexpr double same_height = 1e-12;  // of the range of the motion
-
-}  // namespace
 
 FrictionPhases::FrictionPhases(const Harmonics& harmonics) : harmonics_(harmonics), reversals_(harmonics) {
   path_.reserve(static_cast<std::size_t>(8 * harmonics.order + 32));

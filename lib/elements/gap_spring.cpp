@@ -8,9 +8,7 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-constexpr scene::Field all_fields[] = {
+constexpr scene::Field gap_spring_fields[] = {
     {.name = "stiffness",
      .unit = "N/m",
      .lower = 0,
@@ -38,7 +36,7 @@ class GapSpring final : public scene::file::KeyedPart<GapSpringOptions, LawType>
   std::string_view help() const override {
     return "a spring behind a gap or with a preload, one- or two-sided";
   }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override { return gap_spring_fields; }
   bool options_bring_fields() const override { return false; }
   std::shared_ptr<const Law> law(const scene::Settings& options) const override {
     return !options.empty() && options.as<GapSpringOptions>().two_sided ? two_sided_ : one_sided_;

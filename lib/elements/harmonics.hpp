@@ -17,6 +17,10 @@
 
 namespace arcslip::elements {
 
+inline constexpr double whole_turn = 2 * std::numbers::pi;  // rad
+/// kappa: a_n is this times the integral of x cos n theta over a full turn, and the mean half of that.
+inline constexpr double fourier_factor = 1 / std::numbers::pi;
+
 /// Which harmonics of the base frequency a motion has: all from the mean to `order`, or the odd ones up to
 /// `order`. A value.
 struct Harmonics {

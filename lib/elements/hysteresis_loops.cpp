@@ -6,8 +6,7 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double same_height = 1e-12;  // of the range of the motion: a loop closes at a reversal
-constexpr double no_loop = 1e-14;      // of the largest |x|: rounding
+constexpr double no_loop = 1e-14;  // of the largest |x|: rounding
 
 }  // namespace
 

@@ -13,7 +13,6 @@ namespace {
 
 namespace file = scene::file;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_sliders = 10000;
 
 enum class Distribution { uniform, four_parameter, table };
@@ -23,11 +22,11 @@ constexpr std::array<file::Word<Distribution>, 3> distributions = {
      {"four-parameter", Distribution::four_parameter},
      {"table", Distribution::table}}};
 
-struct Options {
+struct IwanOptions {
   Distribution distribution = Distribution::uniform;
   std::vector<Slider> table;
   int sliders = 100;
-  friend bool operator==(const Options&, const Options&) = default;
+  friend bool operator==(const IwanOptions&, const IwanOptions&) = default;
 };
 
 constexpr scene::Field power_law_fields[] = {
@@ -72,7 +71,7 @@ std::span<const scene::Field> fields_of(Distribution distribution) {
 }
 
 // "table": [[stiffness, slip limit], ...].
-file::KeyGroup<Options> table_key() {
+file::KeyGroup<IwanOptions> table_key() {
   const std::string wanted =
       "a list of 1 to " + std::to_string(most_sliders) + " pairs [stiffness, slip limit], each above 0";
   scene::Key key{"table",
@@ -85,7 +84,7 @@ file::KeyGroup<Options> table_key() {
   key.schema =
       R"({"type": "array", "minItems": 1, "maxItems": 10000, "items": {"type": "array", "minItems": 2,
     "maxItems": 2, "items": {"type": "number", "exclusiveMinimum": 0}}})";
-  const auto read = [wanted](const file::Reading& reading, Options& options) {
+  const auto read = [wanted](const file::Reading& reading, IwanOptions& options) {
     const file::Location place = options.distribution == Distribution::table
                                      ? reading.keys.require("table", wanted, reading.faults)
                                      : reading.keys.find("table");
@@ -120,7 +119,7 @@ file::KeyGroup<Options> table_key() {
       options.table.emplace_back(values[0], values[1]);
     }
   };
-  const auto write = [](const Options& options, const scene::Scene&, file::Node::Object& to) {
+  const auto write = [](const IwanOptions& options, const scene::Scene&, file::Node::Object& to) {
     if (options.table.empty()) return;
     file::Node::List rows;
     for (const auto& [stiffness, limit] : options.table)
@@ -130,14 +129,14 @@ file::KeyGroup<Options> table_key() {
   return {{key}, read, write};
 }
 
-file::KeysOf<Options> option_keys() {
-  file::KeysOf<Options> keys;
-  keys.add(file::word("distribution", &Options::distribution, distributions, "of slip limits"));
+file::KeysOf<IwanOptions> iwan_keys() {
+  file::KeysOf<IwanOptions> keys;
+  keys.add(file::word("distribution", &IwanOptions::distribution, distributions, "of slip limits"));
   keys.add(table_key());
   keys.add(
-      file::whole("sliders", &Options::sliders, 2, static_cast<int>(most_sliders),
+      file::whole("sliders", &IwanOptions::sliders, 2, static_cast<int>(most_sliders),
                   "number of sliders by which studies of kind \"time\" replace a continuous distribution"));
-  keys.add(centred_offset<Options>(
+  keys.add(centred_offset<IwanOptions>(
       "of sliders that stick throughout the period, as some do in microslip: without a mean force",
       "which this joint does not have: its sliders that stick throughout the period, as some do in "
       "microslip, "
@@ -148,7 +147,7 @@ file::KeysOf<Options> option_keys() {
 
 class Iwan final : public Law {
  public:
-  explicit Iwan(Options options) : options_(std::move(options)) {}
+  explicit Iwan(IwanOptions options) : options_(std::move(options)) {}
 
   bool antisymmetric() const override { return true; }
   bool has_contact() const override { return true; }
@@ -326,12 +325,12 @@ class Iwan final : public Law {
     if (!is_uniform()) call(ranges, law.at_most());
   }
 
-  Options options_;
+  IwanOptions options_;
 };
 
-class IwanType final : public file::KeyedPart<Options, LawType> {
+class IwanType final : public file::KeyedPart<IwanOptions, LawType> {
  public:
-  IwanType() : KeyedPart(option_keys()) {}
+  IwanType() : KeyedPart(iwan_keys()) {}
   std::string_view name() const override { return "iwan"; }
   std::string_view help() const override {
     return "sliders with springs in parallel, of distributed slip limits (Iwan): microslip and macroslip";
@@ -344,8 +343,8 @@ class IwanType final : public file::KeyedPart<Options, LawType> {
   }
 
  private:
-  static Options of(const scene::Settings& options) {
-    return options.empty() ? Options{} : options.as<Options>();
+  static IwanOptions of(const scene::Settings& options) {
+    return options.empty() ? IwanOptions{} : options.as<IwanOptions>();
   }
 };
 

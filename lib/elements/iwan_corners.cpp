@@ -11,8 +11,6 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double same_place = 1e-9;  // rad
-
 class IwanCorners final : public Corners {
  public:
   IwanCorners(const Harmonics& h, IwanOnsets onsets)
@@ -121,7 +119,7 @@ class IwanCorners final : public Corners {
       const double sign = sign_of(other) * sign_of(corner);
       const auto same = [&](double from, double to) {
         const double turn = from - other.angles[0], apart = to - other.angles[1] - turn;
-        return std::abs(std::remainder(apart, 2 * std::numbers::pi)) <= same_place &&
+        return std::abs(std::remainder(apart, 2 * std::numbers::pi)) <= same_corner_angle &&
                is_image(h_, w, turn, sign);
       };
       return same(corner.angles[0], corner.angles[1]) ||

@@ -9,7 +9,7 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double settled = 1e-5;  // rad, and of the distance to a reversal: the cube is rounding
+constexpr double settled_crossing = 1e-5;  // rad, and of the distance to a reversal: the cube is rounding
 
 struct Nodes {
   std::vector<double> t, weight;  // of the integral from 0 to 1
@@ -300,7 +300,8 @@ class TableElement final : public MasingElement {
       (excess > 0 ? upper : lower) = t;
       const double step = -2 * excess * at.x.d1 / (2 * at.x.d1 * at.x.d1 * way - excess * at.x.d2);
       t += step;
-      if (std::abs(step) <= settled && std::abs(step * at.x.d2) <= settled * std::abs(at.x.d1)) {
+      if (std::abs(step) <= settled_crossing &&
+          std::abs(step * at.x.d2) <= settled_crossing * std::abs(at.x.d1)) {
         at.x.x = target;
         at.x.d1 += step * at.x.d2;
         at.x.d2 += step * at.x.d3;

@@ -9,11 +9,7 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-enum { stiffness_field, friction_coefficient_field, normal_load_field };
-
-constexpr scene::Field all_fields[] = {
+constexpr scene::Field jenkins_fields[] = {
     {.name = "stiffness",
      .unit = "N/m",
      .lower = 0,
@@ -32,8 +28,8 @@ constexpr scene::Field all_fields[] = {
      .help = "normal load; the slip limit is friction_coefficient * normal_load"},
 };
 
-double limit(Fields fields) {
-  return fields[friction_coefficient_field] * fields[normal_load_field];
+double jenkins_limit(Fields fields) {
+  return fields[jenkins_field::friction_coefficient] * fields[jenkins_field::normal_load];
 }
 
 class Jenkins final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
@@ -43,7 +39,7 @@ class Jenkins final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
   std::string_view help() const override {
     return "a spring in series with a Coulomb slider (Jenkins element): macroslip";
   }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override { return jenkins_fields; }
   bool options_bring_fields() const override { return false; }
 
   std::shared_ptr<const Law> law(const scene::Settings& options) const override;
@@ -52,14 +48,14 @@ class Jenkins final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
   bool has_contact() const override { return true; }
   bool tells_contact() const override { return true; }
   Traits traits(Fields fields, int) const override {
-    return {.stiffness = fields[stiffness_field],
-            .stiffness_field = stiffness_field,
-            .holds_in_stick = offset_ == Offset::static_loads && limit(fields) > 0,
-            .far_work = 4 * limit(fields),
-            .limit = limit(fields)};
+    return {.stiffness = fields[jenkins_field::stiffness],
+            .stiffness_field = jenkins_field::stiffness,
+            .holds_in_stick = offset_ == Offset::static_loads && jenkins_limit(fields) > 0,
+            .far_work = 4 * jenkins_limit(fields),
+            .limit = jenkins_limit(fields)};
   }
-  double stiffness(Fields fields, int, double) const override { return fields[stiffness_field]; }
-  bool limited_by(int field) const override { return field != stiffness_field; }
+  double stiffness(Fields fields, int, double) const override { return fields[jenkins_field::stiffness]; }
+  bool limited_by(int field) const override { return field != jenkins_field::stiffness; }
 
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling& sampling) const override {
     return sampling.exact ? make_jenkins(harmonics, offset_)
@@ -71,7 +67,7 @@ class Jenkins final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
   }
 
   Eigen::MatrixXd force_at(const Harmonics& h, In u, Fields fields, Angles angles) const override {
-    const double stiffness = fields[stiffness_field], p = limit(fields);
+    const double stiffness = fields[jenkins_field::stiffness], p = jenkins_limit(fields);
     Eigen::MatrixXd force = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(angles.size()), 1);
     if (stiffness == 0 || p == 0) return force;
     FrictionPhases search(h);
@@ -103,15 +99,15 @@ class Jenkins final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
   int slider_direction(int) const override { return 0; }
   std::optional<double> slider_room(Fields fields, int) const override {
     if (offset_ == Offset::centred) return {};
-    return limit(fields) / fields[stiffness_field];
+    return jenkins_limit(fields) / fields[jenkins_field::stiffness];
   }
 
   void memory_at(Fields fields, In q, In f, Out z) const override {
-    z[0] = q[0] - f[0] / fields[stiffness_field];
+    z[0] = q[0] - f[0] / fields[jenkins_field::stiffness];
   }
 
   void begin(Fields fields, In q, Out z, StepEnd& at) const override {
-    const double k = fields[stiffness_field], elastic = k * (q[0] - z[0]), p = limit(fields);
+    const double k = fields[jenkins_field::stiffness], elastic = k * (q[0] - z[0]), p = jenkins_limit(fields);
     at.f[0] = std::clamp(elastic, -p, p);
     at.f_q(0, 0) = k;
     at.f_z(0, 0) = -k;
@@ -119,7 +115,7 @@ class Jenkins final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
   }
 
   void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const override {
-    const double k = fields[stiffness_field], p = limit(fields), f = start.f[0] + k * dq[0];
+    const double k = fields[jenkins_field::stiffness], p = jenkins_limit(fields), f = start.f[0] + k * dq[0];
     const bool sticks = std::abs(f) < p;
     end.f[0] = sticks ? f : std::copysign(p, f);
     end.f_q(0, 0) = sticks ? k : 0;
@@ -135,11 +131,11 @@ class Jenkins final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
 
   double stored(Fields fields, In q, In z) const override {
     const double stretch = q[0] - z[0];
-    return 0.5 * fields[stiffness_field] * stretch * stretch;
+    return 0.5 * fields[jenkins_field::stiffness] * stretch * stretch;
   }
 
   std::optional<std::vector<Automaton>> automata(Fields fields) const override {
-    const double k = fields[stiffness_field], p = limit(fields);
+    const double k = fields[jenkins_field::stiffness], p = jenkins_limit(fields);
     Automaton contact(0);
     if (p <= 0) {
       contact.add("free", 0, 0, 0).follows(1, 0, 0);

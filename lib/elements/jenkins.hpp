@@ -27,6 +27,10 @@
 
 namespace arcslip::elements {
 
+namespace jenkins_field {
+enum { stiffness, friction_coefficient, normal_load };
+}
+
 /// "jenkins"; its option "offset" is centred in the law itself.
 const PlainLaw& jenkins();
 

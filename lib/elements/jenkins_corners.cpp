@@ -11,14 +11,11 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double same_place = 1e-9;  // rad: a reversal at the end of a phase
-constexpr double next_to_be = 1e-3;  // of the range of the motion: reversals next to be the highest or lowest
-
 // Where a bound begins to carry a slider with a static offset, the lower or the upper one.
-enum { carried_up = 4, carried_down };
+enum { slider_carried_up = 4, slider_carried_down };
 
 double sign_of_carrying(const Corner& corner) {
-  return corner.guard == carried_up ? 1 : -1;
+  return corner.guard == slider_carried_up ? 1 : -1;
 }
 
 // The force is anchor_sign p at the first angle, and reaches slip_sign p at the second.
@@ -26,7 +23,7 @@ struct Signs {
   double anchor, slip;
 };
 
-int guard_of(Signs signs) {
+int guard_of_signs(Signs signs) {
   return (signs.anchor > 0 ? 1 : 0) + (signs.slip > 0 ? 2 : 0);
 }
 
@@ -39,7 +36,7 @@ class JenkinsCorners final : public Corners {
   JenkinsCorners(const Harmonics& h, Offset offset) : h_(h), offset_(offset), phi_(h.size()) {}
 
   void equations(const Corner& corner, In w, Fields fields, Equations& at) override {
-    if (corner.guard >= carried_up) return carrying(corner, w, fields, at);
+    if (corner.guard >= slider_carried_up) return carrying(corner, w, fields, at);
     const Signs sign = signs_of(corner);
     const double k = fields[0], p = fields[1] * fields[2], factor = 0.5 * sign.slip * k;
     const Values anchor = series_values(h_, w, corner.angles[0]),
@@ -61,7 +58,8 @@ class JenkinsCorners final : public Corners {
   double size(const Corner&, In w, Fields fields) override { return size(w, fields); }
 
   bool polish(Corner& corner, In w, Fields) override {
-    if (corner.guard >= carried_up) return polish_reversal(h_, w, sign_of_carrying(corner), corner.angles[0]);
+    if (corner.guard >= slider_carried_up)
+      return polish_reversal(h_, w, sign_of_carrying(corner), corner.angles[0]);
     const Signs sign = signs_of(corner);
     return polish_reversal(h_, w, sign.anchor, corner.angles[0]) &&
            polish_reversal(h_, w, sign.slip, corner.angles[1]);
@@ -72,7 +70,7 @@ class JenkinsCorners final : public Corners {
     const double limit = fields[1] * fields[2];
     if (!(limit > 0)) return found;
     const auto add = [&](double anchor, double reversal, Signs sign) {
-      Corner corner{guard_of(sign), {anchor, reversal}};
+      Corner corner{guard_of_signs(sign), {anchor, reversal}};
       const double least = sign.anchor == sign.slip ? size(w, fields) : limit;
       if (std::abs(excess(corner, w, fields)) <= tolerance * least && !is_listed(found, corner, w))
         found.push_back(std::move(corner));
@@ -93,8 +91,8 @@ class JenkinsCorners final : public Corners {
       if (phase.slip_end > phase.end) add(phase.begin, phase.slip_end, {phase.sign, phase.slip_sign});
       for (const auto& turn : turns) {
         double theta = turn.theta;
-        while (theta <= phase.begin + same_place) theta += h_.span();
-        if (theta < phase.end - same_place)
+        while (theta <= phase.begin + same_corner_angle) theta += h_.span();
+        if (theta < phase.end - same_corner_angle)
           add(phase.begin, theta, {phase.sign, series_values(h_, w, theta).d2 < 0 ? 1.0 : -1.0});
       }
     }
@@ -116,12 +114,12 @@ class JenkinsCorners final : public Corners {
   bool is_listed(const std::vector<Corner>& all, const Corner& corner, In w) const {
     const Signs own = signs_of(corner);
     return std::any_of(all.begin(), all.end(), [&](const Corner& other) {
-      if (other.guard >= carried_up) return false;
+      if (other.guard >= slider_carried_up) return false;
       const Signs its = signs_of(other);
       const double sign = its.slip * own.slip, turn = corner.angles[0] - other.angles[0];
       const double apart = corner.angles[1] - other.angles[1] - turn;
       return its.anchor * own.anchor == sign &&
-             std::abs(std::remainder(apart, 2 * std::numbers::pi)) <= same_place &&
+             std::abs(std::remainder(apart, 2 * std::numbers::pi)) <= same_corner_angle &&
              is_image(h_, w, turn, sign);
     });
   }
@@ -146,9 +144,9 @@ class JenkinsCorners final : public Corners {
       const bool is_top = series_values(h_, w, turn.theta).d2 < 0;
       const double sign = is_top ? 1 : -1;
       if (std::abs(sign * fields[0] * turn.x - fields[1] * fields[2]) > tolerance) continue;
-      const int guard = is_top ? carried_up : carried_down;
+      const int guard = is_top ? slider_carried_up : slider_carried_down;
       const bool is_listed = std::any_of(found.begin(), found.end(), [&](const Corner& other) {
-        return other.guard >= carried_up &&
+        return other.guard >= slider_carried_up &&
                is_image(h_, w, turn.theta - other.angles[0], other.guard == guard ? 1 : -1);
       });
       if (!is_listed) found.push_back({guard, {turn.theta}});
@@ -161,7 +159,7 @@ class JenkinsCorners final : public Corners {
   void add_of_stick(const std::vector<Reversal>& turns, double highest, double lowest, double reach,
                     Add&& add) const {
     const StuckSlider held = stuck_slider(offset_, highest - reach, lowest + reach);
-    const double near = next_to_be * (highest - lowest);
+    const double near = next_extreme * (highest - lowest);
     std::vector<double> tops, bottoms;
     for (const auto& turn : turns) {
       if (h_.odd) {

@@ -10,8 +10,6 @@
 namespace arcslip::elements {
 namespace {
 
-enum Field { stiffness = 0, friction_coefficient = 1, normal_load = 2 };
-
 double wrapped(double angle) {
   const double turn = 2 * std::numbers::pi;
   angle = std::fmod(angle, turn);
@@ -40,7 +38,8 @@ class ExactJenkins final : public Element {
 
   void move_to(In u, std::span<const double> fields, bool jacobian) override {
     fields_ = {fields[0], fields[1], fields[2]};
-    const double kd = fields[stiffness], p = fields[friction_coefficient] * fields[normal_load];
+    const double kd = fields[jenkins_field::stiffness],
+                 p = fields[jenkins_field::friction_coefficient] * fields[jenkins_field::normal_load];
     const double reach = series_bound(h_, u, 0);
     limit_ = p;
     u_0_ = u[0];
@@ -70,14 +69,14 @@ class ExactJenkins final : public Element {
 
   void field_derivative(int field, Out dF) const override {
     switch (field) {
-      case stiffness:
+      case jenkins_field::stiffness:
         dF = A_;
         break;
-      case friction_coefficient:
-        dF = fields_[normal_load] * B_;
+      case jenkins_field::friction_coefficient:
+        dF = fields_[jenkins_field::normal_load] * B_;
         break;
       default:
-        dF = fields_[friction_coefficient] * B_;
+        dF = fields_[jenkins_field::friction_coefficient] * B_;
         break;
     }
   }
@@ -172,7 +171,7 @@ class ExactJenkins final : public Element {
   // k_d (u_0 - w) for w from a to b.
   void tell_mean(FrictionState& state) const {
     if (frictionless_) return;
-    const double kd = fields_[stiffness];
+    const double kd = fields_[jenkins_field::stiffness];
     if (h_.odd) phases_.find(A_, limit_ / kd);  // A is u here
     const double mean = h_.odd ? 0 : u_0_;
     state.mean_min = kd * (mean - phases_.lowest().x) - limit_;

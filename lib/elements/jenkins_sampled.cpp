@@ -7,7 +7,7 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double same_height = 1e-12;  // of the range of the motion
+constexpr double same_sample_height = 1e-12;  // of the range of the motion
 
 // The first of several samples that are equally high to rounding, as in a motion with a shorter period than
 // the force.
@@ -55,8 +55,8 @@ class SampledJenkins final : public Element {
     if (jacobian) J_.setZero();
     const double high = x_.maxCoeff(), low = x_.minCoeff();
     const double range = h_.odd ? 2 * std::max(high, -low) : high - low;
-    const int highest = first_of(x_, high, same_height * range);
-    const int lowest = first_of(x_, low, same_height * range);
+    const int highest = first_of(x_, high, same_sample_height * range);
+    const int lowest = first_of(x_, low, same_sample_height * range);
     if (p == 0 && range == 0) {
       stick_share_ = 0;
       piece_ = 0;

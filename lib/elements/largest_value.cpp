@@ -7,8 +7,8 @@ namespace arcslip::elements {
 namespace {
 
 constexpr double near_the_largest = 0.98;  // of the highest sample: extrema below it cannot be the largest
-constexpr int newton_steps = 8;            // quadratic from a sample next to an extremum
-constexpr double settled = 1e-8;           // rad: the value there is right to the square of it
+constexpr int extremum_newton_steps = 8;   // quadratic from a sample next to an extremum
+constexpr double settled_extremum = 1e-8;  // rad: the value there is right to the square of it
 
 }  // namespace
 
@@ -32,12 +32,12 @@ double LargestValue::sample(Eigen::Index k) const {
 double LargestValue::polished(In u, double theta) const {
   Values v = series_values(harmonics_, u, theta);
   double largest = std::abs(v.x);
-  for (int i = 0; i < newton_steps && v.d2 != 0; ++i) {
+  for (int i = 0; i < extremum_newton_steps && v.d2 != 0; ++i) {
     const double step = -v.d1 / v.d2;
     if (!(std::abs(step) < step_)) break;
     v = series_values(harmonics_, u, theta += step);
     largest = std::max(largest, std::abs(v.x));
-    if (std::abs(step) < settled) break;
+    if (std::abs(step) < settled_extremum) break;
   }
   return largest;
 }

@@ -30,6 +30,7 @@
 
 namespace arcslip::elements {
 
+using scene::infinity;
 using Fields = std::span<const double>;
 using Angles = std::span<const double>;  // rad
 

@@ -7,6 +7,11 @@
 
 namespace arcslip::elements {
 
+/// The guards of these corners, the first of a law.
+namespace load_guard {
+enum { separation, closing, count };
+}
+
 struct NormalSpring {
   double k_n, N_0;                     // N/m, N
   int stiffness_field, preload_field;  // of the law

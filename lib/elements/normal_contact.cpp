@@ -3,15 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace arcslip::elements {
-namespace {
-
-constexpr double turn_angle = 2 * std::numbers::pi;
-constexpr double kappa = 1 / std::numbers::pi;
-
-}  // namespace
 
 NormalContact::NormalContact(const Harmonics& h)
     : harmonics_(h),
@@ -49,9 +42,9 @@ void NormalContact::move_to(In u_n, double k_n, double N_0) {
       moments_.add_interval(end - begin, middle_.data(), half_.data());
     }
     moments_.close();
-    moments_.times(u_n, kappa, by_stiffness_);
+    moments_.times(u_n, fourier_factor, by_stiffness_);
     moments_.integral(by_load_);
-    by_load_ *= kappa;
+    by_load_ *= fourier_factor;
     by_stiffness_[0] *= 0.5;
     by_load_[0] *= 0.5;
     F_ = k_n * by_stiffness_ + N_0 * by_load_;
@@ -66,7 +59,7 @@ void NormalContact::jacobian(Eigen::Ref<Eigen::MatrixXd> J) const {
     J.diagonal().setConstant(k_n_);
     return;
   }
-  moments_.add_to(J, kappa * k_n_);
+  moments_.add_to(J, fourier_factor * k_n_);
   J.row(0) *= 0.5;
 }
 
@@ -76,7 +69,7 @@ void NormalContact::find_closed(In u_n) {
   closed_.clear();
   const auto always = [&](bool closed) {
     opens_ = !closed;
-    if (closed) closed_.emplace_back(0, turn_angle);
+    if (closed) closed_.emplace_back(0, whole_turn);
   };
   if (!(k_n_ > 0)) return always(n_[0] > 0);
   const auto& crossings = crossings_.find(u_n, -N_0_ / k_n_, reversals_);
@@ -87,7 +80,7 @@ void NormalContact::find_closed(In u_n) {
     if (rises)
       closed_.emplace_back(theta, never);
     else if (closed_.empty())
-      last_end = theta + turn_angle;
+      last_end = theta + whole_turn;
     else
       closed_.back().second = theta;
   }

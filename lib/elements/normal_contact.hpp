@@ -12,6 +12,11 @@
 
 namespace arcslip::elements {
 
+/// The fields of contacts with such a load, contact_2d and contact_3d.
+namespace contact_field {
+enum { tangential_stiffness, normal_stiffness, friction_coefficient, normal_load, count };
+}
+
 /// Owns its buffers.
 class NormalContact {
  public:

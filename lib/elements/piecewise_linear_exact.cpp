@@ -12,7 +12,6 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr std::uint64_t spread = 0x9e3779b97f4a7c15;  // powers of it number the corners
 
 class PiecewiseLinearElement final : public Element {
@@ -82,11 +81,11 @@ class PiecewiseLinearElement final : public Element {
     const auto& crossings = crossings_.find(u, curve.corner(0), reversals_);
     if (crossings.empty()) {
       piece_ = crossings_.is_above() ? 1 : 0;
-      add(curve, piece_, 0, turn);
+      add(curve, piece_, 0, whole_turn);
     }
     for (std::size_t i = 0; i < crossings.size(); ++i) {
       const auto& [begin, rises] = crossings[i];
-      const double end = i + 1 < crossings.size() ? crossings[i + 1].theta : crossings[0].theta + turn;
+      const double end = i + 1 < crossings.size() ? crossings[i + 1].theta : crossings[0].theta + whole_turn;
       if (rises) piece_ += numbers_[0];
       add(curve, rises ? 1 : 0, begin, end);
     }
@@ -99,14 +98,14 @@ class PiecewiseLinearElement final : public Element {
     const auto& turns = reversals_.find(u);
     if (turns.empty()) {
       const std::size_t line = curve.line_at(h_.odd ? 0 : u[0]);
-      add(curve, line, 0, turn);
+      add(curve, line, 0, whole_turn);
       piece_ = line;
       return;
     }
     path_.assign(turns.begin(), turns.end());
     if (h_.odd)
       for (const Reversal& at : turns) path_.push_back({at.theta + std::numbers::pi, -at.x});
-    path_.push_back({path_.front().theta + turn, path_.front().x});
+    path_.push_back({path_.front().theta + whole_turn, path_.front().x});
     std::size_t line = curve.line_at(path_.front().x);
     double begin = path_.front().theta;
     std::optional<double> first_end;  // the first interval is joined to the last
@@ -128,7 +127,7 @@ class PiecewiseLinearElement final : public Element {
       }
       while (line > 0 && !(to.x > curve.corner(line - 1))) leave(line - 1, line - 1);
     }
-    add(curve, line, begin, first_end ? *first_end + turn : path_.back().theta);
+    add(curve, line, begin, first_end ? *first_end + whole_turn : path_.back().theta);
     if (!first_end) piece_ = line;
   }
 

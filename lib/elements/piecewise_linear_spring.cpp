@@ -14,7 +14,7 @@ namespace {
 using Points = std::vector<std::pair<double, double>>;
 namespace file = scene::file;
 
-constexpr scene::Field all_fields[] = {
+constexpr scene::Field piecewise_linear_spring_fields[] = {
     {.name = "factor",
      .unit = "-",
      .lower = -std::numeric_limits<double>::infinity(),
@@ -23,7 +23,7 @@ constexpr scene::Field all_fields[] = {
      .help = "of all forces"},
 };
 
-constexpr const char* wanted = "a list of at least two points [q, f] (m and N), q ascending";
+constexpr const char* wanted_points = "a list of at least two points [q, f] (m and N), q ascending";
 
 double slope(const Points& points, std::size_t i) {
   return (points[i + 1].second - points[i].second) / (points[i + 1].first - points[i].first);
@@ -43,7 +43,7 @@ std::optional<std::string> fault_of(const Points& points, std::size_t i) {
 }
 
 Points read_points(const file::Location& place, scene::file::Faults& faults) {
-  const auto* list = file::read_list(place, wanted, faults);
+  const auto* list = file::read_list(place, wanted_points, faults);
   if (list == nullptr) return {};
   Points points;
   for (std::size_t i = 0; i < list->size(); ++i) {
@@ -67,7 +67,7 @@ Points read_points(const file::Location& place, scene::file::Faults& faults) {
   }
   if (points.size() < 2)
     faults.add(place.pointer, "found " + std::to_string(points.size()) +
-                                  (points.size() == 1 ? " point" : " points") + ", must be " + wanted);
+                                  (points.size() == 1 ? " point" : " points") + ", must be " + wanted_points);
   return points;
 }
 
@@ -75,7 +75,7 @@ file::KeysOf<PiecewiseLinearTable> table_options() {
   scene::Key key{"table",
                  scene::KeyType::other,
                  "",
-                 wanted,
+                 wanted_points,
                  "",
                  true,
                  "force f at displacements q, linear between and beyond them"};
@@ -85,7 +85,7 @@ file::KeysOf<PiecewiseLinearTable> table_options() {
   keys.add({{key},
             [](const file::Reading& reading, PiecewiseLinearTable& table) {
               table.points =
-                  read_points(reading.keys.require("table", wanted, reading.faults), reading.faults);
+                  read_points(reading.keys.require("table", wanted_points, reading.faults), reading.faults);
             },
             [](const PiecewiseLinearTable& table, const scene::Scene&, file::Node::Object& to) {
               file::Node::List list;
@@ -114,12 +114,14 @@ class PiecewiseLinearSpring final : public file::KeyedPart<PiecewiseLinearTable,
   PiecewiseLinearSpring() : KeyedPart(table_options()) {}
   std::string_view name() const override { return "piecewise_linear_spring"; }
   std::string_view help() const override { return "a spring whose force is a table, linear between points"; }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override {
+    return piecewise_linear_spring_fields;
+  }
   std::shared_ptr<const Law> law(const scene::Settings& options) const override {
     const Points points = options.empty() ? Points() : options.as<PiecewiseLinearTable>().points;
     bool valid = points.size() > 1;
     for (std::size_t i = 1; i < points.size(); ++i) valid = valid && !fault_of(points, i);
-    if (!valid) throw std::invalid_argument(std::string("the table of a spring must be ") + wanted);
+    if (!valid) throw std::invalid_argument(std::string("the table of a spring must be ") + wanted_points);
     return std::make_shared<const PiecewiseLinearLaw>(shape_of(points));
   }
 };

@@ -16,16 +16,15 @@ using scene::file::Keys;
 using scene::file::Location;
 using scene::file::Reading;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int least_degree = 2, largest_degree = 10;
 constexpr std::size_t most_terms = 1000, most_names = 20;
-constexpr std::string_view allowed = "a list of at least one term with \"powers\" and \"value\"";
-constexpr std::string_view help =
+constexpr std::string_view allowed_potential = "a list of at least one term with \"powers\" and \"value\"";
+constexpr std::string_view potential_help =
     "[{\"powers\": {\"a\": 2, \"b\": 2}, \"value\": v1}]: a term v1 a^2 b^2 of the energy, whose gradient is "
     "the "
     "force; a, b: degrees of freedom, or places in the element";
-constexpr std::string_view units[] = {"J/m^2", "J/m^3", "J/m^4", "J/m^5", "J/m^6",
-                                      "J/m^7", "J/m^8", "J/m^9", "J/m^10"};
+constexpr std::string_view energy_units[] = {"J/m^2", "J/m^3", "J/m^4", "J/m^5", "J/m^6",
+                                             "J/m^7", "J/m^8", "J/m^9", "J/m^10"};
 
 /// The powers of the names in each term, in their order.
 struct Terms {
@@ -34,7 +33,7 @@ struct Terms {
   friend bool operator==(const Terms&, const Terms&) = default;
 };
 
-double power(double x, int n) {
+double integer_power(double x, int n) {
   double result = 1;
   for (; n > 0; --n) result *= x;
   return result;
@@ -53,7 +52,7 @@ class PolynomialCoupling final : public SampledLaw {
     }
     for (std::size_t t = 0; t < degrees_.size(); ++t)
       fields_.push_back({.name = names_[t],
-                         .unit = units[degrees_[t] - least_degree],
+                         .unit = energy_units[degrees_[t] - least_degree],
                          .lower = -infinity,
                          .upper = infinity,
                          .help = "factor of this term of the energy",
@@ -127,7 +126,7 @@ class PolynomialCoupling final : public SampledLaw {
       for (const Eigen::Index by : {i, j})
         if (by == k) product *= n--;
       if (product == 0) return 0;
-      product *= power(q[k], n);
+      product *= integer_power(q[k], n);
     }
     return product;
   }
@@ -139,9 +138,9 @@ class PolynomialCoupling final : public SampledLaw {
   std::vector<scene::Field> fields_;
 };
 
-struct Options {
+struct PolynomialCouplingOptions {
   std::shared_ptr<const PolynomialCoupling> coupling = std::make_shared<const PolynomialCoupling>(Terms());
-  friend bool operator==(const Options& a, const Options& b) {
+  friend bool operator==(const PolynomialCouplingOptions& a, const PolynomialCouplingOptions& b) {
     return a.coupling->terms() == b.coupling->terms();
   }
 };
@@ -179,15 +178,15 @@ std::map<std::string, int> read_term(const Location& place, const Reading& readi
   return powers;
 }
 
-void read(const Reading& reading, Options& options) {
-  const Location place = reading.keys.require("potential", std::string(allowed), reading.faults);
+void read_potential(const Reading& reading, PolynomialCouplingOptions& options) {
+  const Location place = reading.keys.require("potential", std::string(allowed_potential), reading.faults);
   if (place.node == nullptr) return;
   const std::size_t before = reading.faults.count();
-  const auto* list = scene::file::read_list(place, allowed, reading.faults);
+  const auto* list = scene::file::read_list(place, allowed_potential, reading.faults);
   if (list == nullptr) return;
   if (list->empty() || list->size() > most_terms)
     reading.faults.add(place.pointer, "found a list of " + std::to_string(list->size()) + " terms, must be " +
-                                          std::string(allowed) + " and at most " +
+                                          std::string(allowed_potential) + " and at most " +
                                           std::to_string(most_terms));
   std::vector<std::map<std::string, int>> terms;
   Terms all;
@@ -209,7 +208,8 @@ void read(const Reading& reading, Options& options) {
 }
 
 // The powers: the writer puts the values beside them with the fields.
-void write(const Options& options, const scene::Scene&, scene::file::Node::Object& to) {
+void write_potential(const PolynomialCouplingOptions& options, const scene::Scene&,
+                     scene::file::Node::Object& to) {
   using scene::file::Node;
   const Terms& terms = options.coupling->terms();
   Node::List list;
@@ -222,44 +222,47 @@ void write(const Options& options, const scene::Scene&, scene::file::Node::Objec
   to.push_back({"potential", {std::move(list)}});
 }
 
-scene::file::KeysOf<Options> keys() {
+scene::file::KeysOf<PolynomialCouplingOptions> potential_keys() {
   scene::Key key;
   key.name = "potential";
-  key.allowed = allowed;
+  key.allowed = allowed_potential;
   key.required = true;
-  key.help = help;
+  key.help = potential_help;
   key.schema =
       R"({"type": "array", "minItems": 1, "items": {"type": "object", "required": ["powers", "value"],
     "additionalProperties": false, "properties": {"value": {"type": "number"}, "powers": {"type": "object",
     "minProperties": 1, "additionalProperties": {"type": "integer", "minimum": 1, "maximum": 10}}}}})";
-  scene::file::KeysOf<Options> keys;
-  keys.add({{key}, read, write});
+  scene::file::KeysOf<PolynomialCouplingOptions> keys;
+  keys.add({{key}, read_potential, write_potential});
   return keys;
 }
 
-class Type final : public scene::file::KeyedPart<Options, LawType> {
+class PolynomialCouplingType final : public scene::file::KeyedPart<PolynomialCouplingOptions, LawType> {
  public:
-  Type() : KeyedPart(keys()) {}
+  PolynomialCouplingType() : KeyedPart(potential_keys()) {}
   std::string_view name() const override { return "polynomial_coupling"; }
   std::string_view help() const override {
     return "springs that couple displacements by a polynomial energy";
   }
   std::span<const scene::Field> fields(const scene::Settings& options) const override {
-    return options.empty() ? std::span<const scene::Field>() : options.as<Options>().coupling->fields({});
+    return options.empty() ? std::span<const scene::Field>()
+                           : options.as<PolynomialCouplingOptions>().coupling->fields({});
   }
   bool names_directions() const override { return true; }
   std::span<const std::string_view> slots_with(const scene::Settings& options) const override {
-    return options.empty() ? std::span<const std::string_view>() : options.as<Options>().coupling->slots();
+    return options.empty() ? std::span<const std::string_view>()
+                           : options.as<PolynomialCouplingOptions>().coupling->slots();
   }
   std::shared_ptr<const Law> law(const scene::Settings& options) const override {
-    return options.empty() ? Options{}.coupling : options.as<Options>().coupling;
+    return options.empty() ? PolynomialCouplingOptions{}.coupling
+                           : options.as<PolynomialCouplingOptions>().coupling;
   }
 };
 
 }  // namespace
 
 const LawType& polynomial_coupling() {
-  static const Type type;
+  static const PolynomialCouplingType type;
   return type;
 }
 

@@ -14,10 +14,11 @@ namespace {
 
 using scene::file::Reading;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int largest_power = 9;
-constexpr std::string_view allowed = "an object with a coefficient for each of some powers from 1 to 9";
-constexpr std::string_view help = "{\"2\": c2, \"3\": c3}: force = c2 displacement^2 + c3 displacement^3";
+constexpr std::string_view allowed_coefficients =
+    "an object with a coefficient for each of some powers from 1 to 9";
+constexpr std::string_view coefficients_help =
+    "{\"2\": c2, \"3\": c3}: force = c2 displacement^2 + c3 displacement^3";
 
 constexpr scene::Field coefficient(std::string_view name, std::string_view unit, std::string_view place) {
   return {.name = name,
@@ -28,7 +29,7 @@ constexpr scene::Field coefficient(std::string_view name, std::string_view unit,
           .place = place};
 }
 
-constexpr scene::Field coefficients[largest_power] = {
+constexpr scene::Field coefficient_fields[largest_power] = {
     coefficient("c1", "N/m", "/coefficients/1"),   coefficient("c2", "N/m^2", "/coefficients/2"),
     coefficient("c3", "N/m^3", "/coefficients/3"), coefficient("c4", "N/m^4", "/coefficients/4"),
     coefficient("c5", "N/m^5", "/coefficients/5"), coefficient("c6", "N/m^6", "/coefficients/6"),
@@ -39,7 +40,7 @@ class PolynomialSpring final : public SampledLaw {
  public:
   /// Ascending powers.
   explicit PolynomialSpring(std::vector<int> powers) : powers_(std::move(powers)) {
-    for (const int n : powers_) fields_.push_back(coefficients[n - 1]);
+    for (const int n : powers_) fields_.push_back(coefficient_fields[n - 1]);
   }
   const std::vector<int>& powers() const { return powers_; }
 
@@ -105,19 +106,19 @@ class PolynomialSpring final : public SampledLaw {
   std::vector<scene::Field> fields_;
 };
 
-struct Options {
+struct PolynomialSpringOptions {
   std::shared_ptr<const PolynomialSpring> spring =
       std::make_shared<const PolynomialSpring>(std::vector<int>());
-  friend bool operator==(const Options& a, const Options& b) {
+  friend bool operator==(const PolynomialSpringOptions& a, const PolynomialSpringOptions& b) {
     return a.spring->powers() == b.spring->powers();
   }
 };
 
-void read(const Reading& reading, Options& options) {
-  const auto place = reading.keys.require("coefficients", std::string(allowed), reading.faults);
+void read_coefficients(const Reading& reading, PolynomialSpringOptions& options) {
+  const auto place = reading.keys.require("coefficients", std::string(allowed_coefficients), reading.faults);
   if (place.node == nullptr) return;
   if (place.node->get<scene::file::Node::Object>() == nullptr)
-    return scene::file::add_wrong_type(place, allowed, reading.faults);
+    return scene::file::add_wrong_type(place, allowed_coefficients, reading.faults);
   std::vector<int> powers;
   const auto all = scene::file::members(place, reading.faults);
   for (const auto* member : all) {
@@ -129,42 +130,45 @@ void read(const Reading& reading, Options& options) {
                          "found the power " + scene::file::shown(key) + ", must be an integer from 1 to 9");
   }
   if (all.empty())
-    reading.faults.add(place.pointer, "found an empty object, must be " + std::string(allowed));
+    reading.faults.add(place.pointer, "found an empty object, must be " + std::string(allowed_coefficients));
   std::sort(powers.begin(), powers.end());
   options.spring = std::make_shared<const PolynomialSpring>(powers);
 }
 
-scene::file::KeysOf<Options> keys() {
+scene::file::KeysOf<PolynomialSpringOptions> coefficient_keys() {
   scene::Key key;
   key.name = "coefficients";
-  key.allowed = allowed;
+  key.allowed = allowed_coefficients;
   key.required = true;
-  key.help = help;
+  key.help = coefficients_help;
   key.schema = R"({"type": "object", "minProperties": 1, "additionalProperties": false,
     "patternProperties": {"^[1-9]$": {"type": "number"}}})";
-  scene::file::KeysOf<Options> keys;
+  scene::file::KeysOf<PolynomialSpringOptions> keys;
   // The writer puts the coefficients there with the fields.
-  keys.add({{key}, read, [](const Options&, const scene::Scene&, scene::file::Node::Object&) {}});
+  keys.add({{key},
+            read_coefficients,
+            [](const PolynomialSpringOptions&, const scene::Scene&, scene::file::Node::Object&) {}});
   return keys;
 }
 
-class Type final : public scene::file::KeyedPart<Options, LawType> {
+class PolynomialSpringType final : public scene::file::KeyedPart<PolynomialSpringOptions, LawType> {
  public:
-  Type() : KeyedPart(keys()) {}
+  PolynomialSpringType() : KeyedPart(coefficient_keys()) {}
   std::string_view name() const override { return "polynomial_spring"; }
   std::string_view help() const override { return "a spring whose force is a polynomial"; }
   std::span<const scene::Field> fields(const scene::Settings& options) const override {
-    return options.empty() ? std::span<const scene::Field>() : options.as<Options>().spring->fields({});
+    return options.empty() ? std::span<const scene::Field>()
+                           : options.as<PolynomialSpringOptions>().spring->fields({});
   }
   std::shared_ptr<const Law> law(const scene::Settings& options) const override {
-    return options.empty() ? Options{}.spring : options.as<Options>().spring;
+    return options.empty() ? PolynomialSpringOptions{}.spring : options.as<PolynomialSpringOptions>().spring;
   }
 };
 
 }  // namespace
 
 const LawType& polynomial_spring() {
-  static const Type type;
+  static const PolynomialSpringType type;
   return type;
 }
 
@@ -173,7 +177,8 @@ scene::Settings polynomial_powers(std::vector<int> powers) {
   for (const int n : powers)
     if (n < 1 || n > largest_power || std::count(powers.begin(), powers.end(), n) > 1)
       throw std::invalid_argument("power " + std::to_string(n) + ": must be from 1 to 9, and only once");
-  return scene::Settings::of(Options{std::make_shared<const PolynomialSpring>(std::move(powers))});
+  return scene::Settings::of(
+      PolynomialSpringOptions{std::make_shared<const PolynomialSpring>(std::move(powers))});
 }
 
 }  // namespace arcslip::elements

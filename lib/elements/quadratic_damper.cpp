@@ -8,9 +8,7 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-constexpr scene::Field all_fields[] = {
+constexpr scene::Field quadratic_damper_fields[] = {
     {.name = "coefficient",
      .unit = "N s^2/m^2",
      .lower = 0,
@@ -71,7 +69,9 @@ class QuadraticDamper final : public RateLaw {
  public:
   std::string_view name() const override { return "quadratic_damper"; }
   std::string_view help() const override { return "a damper whose force grows as the velocity squared"; }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override {
+    return quadratic_damper_fields;
+  }
 
   Traits traits(Fields fields, int) const override { return {.far_work = fields[0] > 0 ? infinity : 0}; }
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling&) const override {

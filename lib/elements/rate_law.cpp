@@ -5,7 +5,7 @@
 namespace arcslip::elements {
 namespace {
 
-void set(const RateLaw& law, Fields fields, Eigen::Index s, double q, double v, SampledForce& at) {
+void set_rate_force(const RateLaw& law, Fields fields, Eigen::Index s, double q, double v, SampledForce& at) {
   std::array<double, RateLaw::most_fields> by_field{};
   const RateLaw::Force force = law.force(fields, q, v, by_field.data());
   at.f(s, 0) = force.f;
@@ -17,12 +17,12 @@ void set(const RateLaw& law, Fields fields, Eigen::Index s, double q, double v, 
 }  // namespace
 
 void RateLaw::sample(Fields fields, const Eigen::MatrixXd& q, SampledForce& at) const {
-  for (Eigen::Index s = 0; s < q.rows(); ++s) set(*this, fields, s, q(s, 0), 0, at);
+  for (Eigen::Index s = 0; s < q.rows(); ++s) set_rate_force(*this, fields, s, q(s, 0), 0, at);
 }
 
 void RateLaw::sample_moving(Fields fields, const Eigen::MatrixXd& q, const Eigen::MatrixXd& v,
                             SampledForce& at) const {
-  for (Eigen::Index s = 0; s < q.rows(); ++s) set(*this, fields, s, q(s, 0), v(s, 0), at);
+  for (Eigen::Index s = 0; s < q.rows(); ++s) set_rate_force(*this, fields, s, q(s, 0), v(s, 0), at);
 }
 
 void RateLaw::step(Fields fields, const StepStart& start, In dq, StepEnd& end) const {

@@ -5,19 +5,19 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr int polishing = 20;       // steps of Newton's method
-constexpr double same_angle = 0.3;  // rad: farther off, it is another reversal
+constexpr int reversal_newton_steps = 20;
+constexpr double same_reversal = 0.3;  // rad: farther off, it is another one
 
 }  // namespace
 
 bool polish_reversal(const Harmonics& h, In w, double sign, double& theta) {
   const double begin = theta;
-  for (int k = 0; k < polishing; ++k) {
+  for (int k = 0; k < reversal_newton_steps; ++k) {
     const Values at = series_values(h, w, theta);
     if (!(sign * at.d2 < 0)) return false;
     const double step = -at.d1 / at.d2;
     theta += step;
-    if (!(std::abs(theta - begin) <= same_angle)) return false;
+    if (!(std::abs(theta - begin) <= same_reversal)) return false;
     if (std::abs(step) <= 1e-14) break;
   }
   return true;

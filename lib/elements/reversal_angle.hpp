@@ -5,6 +5,9 @@
 
 namespace arcslip::elements {
 
+/// Of the range of a motion: reversals so close to the highest or lowest are next to be it.
+inline constexpr double next_extreme = 1e-3;
+
 /// The reversal next to theta: of maxima of sign w. False where there is none within 0.3 rad.
 bool polish_reversal(const Harmonics& harmonics, In w, double sign, double& theta);
 

@@ -12,6 +12,9 @@
 
 namespace arcslip::elements {
 
+/// Of the range of the motion: reversals so close are equally high.
+inline constexpr double same_height = 1e-12;
+
 struct Reversal {
   double theta;  // in [start, start + span)
   double x;

@@ -110,7 +110,7 @@ class SampledElement final : public Element {
   Eigen::MatrixXd block_;
 };
 
-void set(const SampledLaw& law, Fields fields, StepEnd& at) {
+void set_sample_force(const SampledLaw& law, Fields fields, StepEnd& at) {
   const Eigen::Index d = at.f.size();
   if (at.sample.f.size() == 0) at.sample = {1, d, static_cast<Eigen::Index>(fields.size())};
   if (law.rate_dependent()) {
@@ -151,12 +151,12 @@ Eigen::MatrixXd SampledLaw::moving_force_at(const Harmonics& h, In u, double bas
 
 void SampledLaw::begin(Fields fields, In q, Out, StepEnd& at) const {
   at.sample_q = q.transpose();
-  set(*this, fields, at);
+  set_sample_force(*this, fields, at);
 }
 
 void SampledLaw::step(Fields fields, const StepStart& start, In dq, StepEnd& end) const {
   end.sample_q = (start.q + dq).transpose();
-  set(*this, fields, end);
+  set_sample_force(*this, fields, end);
 }
 
 }  // namespace arcslip::elements

@@ -10,10 +10,9 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr int s = panel_nodes;
-constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr int newton_steps = 8;
-constexpr double rounding = 1e-13;  // rad
+constexpr double no_solution = std::numeric_limits<double>::infinity();
+constexpr int collocation_newton_steps = 8;
+constexpr double direction_rounding = 1e-13;  // rad
 
 double legendre(int degree, double t) {
   double before = 1, at = t;
@@ -26,13 +25,13 @@ double legendre(int degree, double t) {
   return at;
 }
 
-// The roots of P_s - P_(s-1), the last of which is 1.
+// The roots of P_s - P_(s-1), s = panel_nodes, the last of which is 1.
 SlipPanel::Nodes radau() {
   SlipPanel::Nodes nodes;
-  const auto f = [](double t) { return legendre(s, t) - legendre(s - 1, t); };
+  const auto f = [](double t) { return legendre(panel_nodes, t) - legendre(panel_nodes - 1, t); };
   constexpr int samples = 1000;
   int found = 0;
-  for (int k = 0; k < samples && found < s - 1; ++k) {
+  for (int k = 0; k < samples && found < panel_nodes - 1; ++k) {
     double below = -1 + 2.0 * k / samples, above = -1 + 2.0 * (k + 1) / samples;
     const bool rises = f(below) < 0;
     if (rises == (f(above) < 0)) continue;
@@ -42,27 +41,27 @@ SlipPanel::Nodes radau() {
     }
     nodes[found++] = 0.5 * (below + above);
   }
-  nodes[s - 1] = 1;
+  nodes[panel_nodes - 1] = 1;
   return nodes;
 }
 
 }  // namespace
 
 SlipCollocation::SlipCollocation() : nodes_(radau()) {
-  Eigen::Matrix<double, s + 1, 1> t;
+  Eigen::Matrix<double, panel_nodes + 1, 1> t;
   t << -1, nodes_;
-  for (int j = 0; j < s; ++j) {
-    const double p = legendre(s - 1, nodes_[j]);
-    weights_[j] = (1 + nodes_[j]) / (s * s * p * p);
+  for (int j = 0; j < panel_nodes; ++j) {
+    const double p = legendre(panel_nodes - 1, nodes_[j]);
+    weights_[j] = (1 + nodes_[j]) / (panel_nodes * panel_nodes * p * p);
   }
-  for (int i = 0; i <= s; ++i) {
+  for (int i = 0; i <= panel_nodes; ++i) {
     barycentric_[i] = 1;
-    for (int j = 0; j <= s; ++j)
+    for (int j = 0; j <= panel_nodes; ++j)
       if (j != i) barycentric_[i] /= t[i] - t[j];
   }
-  for (int j = 0; j < s; ++j) {
+  for (int j = 0; j < panel_nodes; ++j) {
     double own = 0;
-    for (int i = 0; i <= s; ++i) {
+    for (int i = 0; i <= panel_nodes; ++i) {
       if (i == j + 1) continue;
       const double d = barycentric_[i] / barycentric_[j + 1] / (t[j + 1] - t[i]);
       own -= d;
@@ -73,16 +72,16 @@ SlipCollocation::SlipCollocation() : nodes_(radau()) {
     }
     derivative_(j, j) = own;
   }
-  Eigen::Matrix<double, s + 1, s + 1> basis;
-  for (int i = 0; i <= s; ++i)
-    for (int k = 0; k <= s; ++k) basis(i, k) = legendre(k, t[i]);
+  Eigen::Matrix<double, panel_nodes + 1, panel_nodes + 1> basis;
+  for (int i = 0; i <= panel_nodes; ++i)
+    for (int k = 0; k <= panel_nodes; ++k) basis(i, k) = legendre(k, t[i]);
   tail_ = basis.inverse().bottomRows(2);
 }
 
 // With x' and h frozen between neighbouring nodes tan((psi - arg x')/2) decays exponentially.
-void SlipCollocation::guess(const std::array<DiscPoint, s>& at, SlipPanel& panel) const {
+void SlipCollocation::guess(const std::array<DiscPoint, panel_nodes>& at, SlipPanel& panel) const {
   double psi = panel.from, theta = panel.begin;
-  for (int j = 0; j < s; ++j) {
+  for (int j = 0; j < panel_nodes; ++j) {
     const DiscPoint& p = at[static_cast<std::size_t>(j)];
     const double speed = p.v.norm();
     if (speed > 0) {
@@ -101,17 +100,17 @@ double SlipCollocation::solve(const Disc& disc, double begin, double end, double
   panel.end = end;
   panel.from = from;
   const double half = 0.5 * (end - begin);
-  std::array<DiscPoint, s> at;
-  for (int j = 0; j < s; ++j) {
-    panel.theta[j] = j == s - 1 ? end : begin + half * (1 + nodes_[j]);
+  std::array<DiscPoint, panel_nodes> at;
+  for (int j = 0; j < panel_nodes; ++j) {
+    panel.theta[j] = j == panel_nodes - 1 ? end : begin + half * (1 + nodes_[j]);
     at[static_cast<std::size_t>(j)] = disc.at(panel.theta[j]);
     panel.h[j] = std::max(at[static_cast<std::size_t>(j)].h, 0.0);
   }
   guess(at, panel);
   bool settled = false;
-  for (int i = 0; i < newton_steps && !settled; ++i) {
+  for (int i = 0; i < collocation_newton_steps && !settled; ++i) {
     panel.rate = (derivative_ * panel.psi + by_first_ * from) / half;
-    for (int j = 0; j < s; ++j) {
+    for (int j = 0; j < panel_nodes; ++j) {
       const Eigen::Vector2d& v = at[static_cast<std::size_t>(j)].v;
       const double c = std::cos(panel.psi[j]), sine = std::sin(panel.psi[j]);
       panel.along[j] = c * v[0] + sine * v[1];
@@ -119,13 +118,13 @@ double SlipCollocation::solve(const Disc& disc, double begin, double end, double
     }
     const SlipPanel::Nodes residual = panel.h.cwiseProduct(panel.rate) - panel.across;
     const SlipPanel::Nodes step = matrix(panel).partialPivLu().solve(residual);
-    if (!step.allFinite() || !(step.cwiseAbs().maxCoeff() < 3)) return infinite;
+    if (!step.allFinite() || !(step.cwiseAbs().maxCoeff() < 3)) return no_solution;
     panel.psi -= step;
-    settled = step.cwiseAbs().maxCoeff() <= rounding ||
+    settled = step.cwiseAbs().maxCoeff() <= direction_rounding ||
               step.cwiseProduct(panel.h).cwiseAbs().maxCoeff() <= 1e-3 * tolerance;
   }
-  if (!settled) return infinite;
-  for (int j = 0; j < s; ++j) {
+  if (!settled) return no_solution;
+  for (int j = 0; j < panel_nodes; ++j) {
     const DiscPoint& p = at[static_cast<std::size_t>(j)];
     const double c = std::cos(panel.psi[j]), sine = std::sin(panel.psi[j]);
     panel.along[j] = c * p.v[0] + sine * p.v[1];
@@ -135,7 +134,7 @@ double SlipCollocation::solve(const Disc& disc, double begin, double end, double
   }
   panel.rate = (derivative_ * panel.psi + by_first_ * from) / half;
   panel.gain += panel.rate.cwiseProduct(panel.across);
-  Eigen::Matrix<double, s + 1, 1> values;
+  Eigen::Matrix<double, panel_nodes + 1, 1> values;
   values << from, panel.psi;
   return (tail_ * values).cwiseAbs().sum() * panel.h.maxCoeff();
 }
@@ -147,8 +146,8 @@ void SlipCollocation::hold(const Disc& disc, double begin, double end, double ps
   panel.psi.setConstant(psi);
   panel.rate.setZero();
   const double c = std::cos(psi), sine = std::sin(psi);
-  for (int j = 0; j < s; ++j) {
-    panel.theta[j] = j == s - 1 ? end : begin + 0.5 * (end - begin) * (1 + nodes_[j]);
+  for (int j = 0; j < panel_nodes; ++j) {
+    panel.theta[j] = j == panel_nodes - 1 ? end : begin + 0.5 * (end - begin) * (1 + nodes_[j]);
     const DiscPoint at = disc.at(panel.theta[j]);
     panel.h[j] = std::max(at.h, 0.0);
     panel.along[j] = c * at.v[0] + sine * at.v[1];
@@ -171,7 +170,7 @@ SlipPanel::Nodes SlipCollocation::column(const SlipPanel& panel) const {
 double SlipCollocation::psi(const SlipPanel& panel, double theta) const {
   const double t = 2 * (theta - panel.begin) / panel.length() - 1;
   double sum = 0, weight = 0;
-  for (int i = 0; i <= s; ++i) {
+  for (int i = 0; i <= panel_nodes; ++i) {
     const double apart = t - (i == 0 ? -1 : nodes_[i - 1]), value = i == 0 ? panel.from : panel.psi[i - 1];
     if (apart == 0) return value;
     sum += barycentric_[i] / apart * value;

@@ -4,20 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace arcslip::elements {
 namespace {
 
 constexpr int exchanges = 60;
-constexpr double rounding = 1e-13;
-constexpr double turn_angle = 2 * std::numbers::pi;
+constexpr double centre_rounding = 1e-13;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a[0] * b[1] - a[1] * b[0];
-}
-Eigen::Vector2d turned(const Eigen::Vector2d& n) {
-  return {-n[1], n[0]};
 }
 
 // |x - w| - h at an angle, with derivatives by it.
@@ -29,7 +24,7 @@ struct Excess {
     const Eigen::Vector2d y = p.x - w;
     d = y.norm();
     n = d > 0 ? Eigen::Vector2d(y / d) : Eigen::Vector2d(1, 0);
-    t = turned(n);
+    t = quarter_turn(n);
     value = d - p.h;
     d1 = n.dot(p.v) - p.dh;
     const double across = t.dot(p.v);
@@ -110,7 +105,7 @@ StickCentre::Point StickCentre::point(double theta) const {
 
 // The local maximum of the excess near an angle.
 double StickCentre::climb(double theta) const {
-  const double reach = turn_angle / static_cast<double>(samples_.size()), begin = theta;
+  const double reach = whole_turn / static_cast<double>(samples_.size()), begin = theta;
   double value = Excess(disc_.at(theta), w_).value;
   for (int i = 0; i < 30; ++i) {
     const Excess at(disc_.at(theta), w_);
@@ -133,7 +128,7 @@ double StickCentre::climb(double theta) const {
 // w the excess has a cone: on both sides of it.
 StickCentre::Point StickCentre::farthest() {
   const std::size_t count = samples_.size();
-  const double reach = turn_angle / static_cast<double>(count);
+  const double reach = whole_turn / static_cast<double>(count);
   for (std::size_t k = 0; k < count; ++k) excess_[k] = excess(samples_[k], w_);
   const auto top =
       static_cast<std::size_t>(std::max_element(excess_.begin(), excess_.end()) - excess_.begin());
@@ -200,7 +195,7 @@ void StickCentre::find(const Disc& disc) {
   active_.clear();
   w_.setZero();
   for (std::size_t k = 0; k < samples_.size(); ++k)
-    samples_[k] = point(turn_angle * static_cast<double>(k) / static_cast<double>(samples_.size()));
+    samples_[k] = point(whole_turn * static_cast<double>(k) / static_cast<double>(samples_.size()));
   const auto least = std::min_element(samples_.begin(), samples_.end(),
                                       [](const Point& a, const Point& b) { return a.h < b.h; });
   if (!(size > 0)) {
@@ -212,7 +207,7 @@ void StickCentre::find(const Disc& disc) {
   std::vector<Point> basis{*least};
   for (int i = 0; i < exchanges; ++i) {
     const Point next = farthest();
-    if (!(excess(next, w_) > r_ + rounding * size)) break;
+    if (!(excess(next, w_) > r_ + centre_rounding * size)) break;
     const double before = r_;
     basis.push_back(next);
     solve(basis);
@@ -224,11 +219,11 @@ void StickCentre::find(const Disc& disc) {
 
 // Neighbouring points are one maximum. Two have to be opposite, which the values alone decide poorly.
 void StickCentre::polish() {
-  const double same = 0.5 * turn_angle / static_cast<double>(samples_.size());
+  const double same = 0.5 * whole_turn / static_cast<double>(samples_.size());
   std::vector<double> distinct;
   for (const double theta : active_) {
     const bool known = std::any_of(distinct.begin(), distinct.end(), [&](double other) {
-      return std::abs(std::remainder(theta - other, turn_angle)) < same &&
+      return std::abs(std::remainder(theta - other, whole_turn)) < same &&
              Excess(disc_.at(theta), w_).n.dot(Excess(disc_.at(other), w_).n) > 0.5;
     });
     if (!known) distinct.push_back(theta);
@@ -281,7 +276,7 @@ void StickCentre::polish() {
         active_[static_cast<std::size_t>(k)] += std::clamp(step[3 + k], -same, same);
       change = step.head<3>().norm();
     }
-    settled = change <= rounding * disc_.motion_bound(0);
+    settled = change <= centre_rounding * disc_.motion_bound(0);
     if (!std::isfinite(change)) break;
   }
   // Newton's method may have left for somewhere else.

@@ -7,9 +7,7 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-constexpr scene::Field all_fields[] = {
+constexpr scene::Field tanh_friction_fields[] = {
     {.name = "friction_coefficient",
      .unit = "-",
      .lower = 0,
@@ -28,7 +26,7 @@ class TanhFriction final : public RateLaw {
  public:
   std::string_view name() const override { return "tanh_friction"; }
   std::string_view help() const override { return "Coulomb friction, regularized by the velocity"; }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override { return tanh_friction_fields; }
 
   Traits traits(Fields fields, int) const override { return {.far_work = 4 * fields[0] * fields[1]}; }
   int samples(int order) const override { return 32 * order + 64; }

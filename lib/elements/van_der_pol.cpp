@@ -5,9 +5,7 @@
 namespace arcslip::elements {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-constexpr scene::Field all_fields[] = {
+constexpr scene::Field van_der_pol_fields[] = {
     {.name = "coefficient",
      .unit = "N s/m",
      .lower = 0,
@@ -25,7 +23,7 @@ class VanDerPol final : public RateLaw {
  public:
   std::string_view name() const override { return "van_der_pol"; }
   std::string_view help() const override { return "a damper that feeds small motions and damps large ones"; }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return all_fields; }
+  std::span<const scene::Field> fields(const scene::Settings&) const override { return van_der_pol_fields; }
 
   Traits traits(Fields fields, int) const override {
     return {.several_responses = fields[0] > 0, .far_work = fields[0] > 0 ? infinity : 0};

@@ -13,8 +13,8 @@ namespace {
 using continuation::Evaluated;
 using continuation::Needs;
 
-constexpr double beside = 1e-11;       // of the size of h: so far from h = 0 the sides are looked at
-constexpr double no_harmonic = 1e-11;  // of the largest coefficient: what is less is rounding
+constexpr double side_distance = 1e-11;  // of the size of h: so far from h = 0 the sides are looked at
+constexpr double no_harmonic = 1e-11;    // of the largest coefficient: what is less is rounding
 
 // The corners of one element, from the unknowns.
 class ElementCorners {
@@ -260,7 +260,7 @@ CornerSlopes CornerSides::slopes(In x, In p) {
 double CornerSides::slope(double side, int& direction) {
   const Eigen::Index n = problem_->size();
   const double none = std::numeric_limits<double>::quiet_NaN();
-  beside_ = u_ + side * beside * corner_size(*problem_, corner_, u_, p_) / dh_.squaredNorm() * dh_;
+  beside_ = u_ + side * side_distance * corner_size(*problem_, corner_, u_, p_) / dh_.squaredNorm() * dh_;
   if (evaluator_->move_to(beside_, p_, Needs::jacobian) != Evaluated::ok) return none;
   evaluator_->parameter_derivative(model::frequency, border_.columns.col(0));
   border_.rows.col(0) = dh_;

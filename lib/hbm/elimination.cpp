@@ -38,7 +38,7 @@ double square(Parts of, Index i) {
   }
 }
 
-[[gnu::always_inline]] inline bool eliminate(const Equations& z, double least) {
+[[gnu::always_inline]] inline bool eliminate_rows(const Equations& z, double least) {
   for (Index k = z.r; k < z.n; ++k) {  // of the columns as they are given
     double largest = 0;
     for (Index i = z.r; i < z.n; ++i) largest = std::max(largest, square(z.column(k), i));
@@ -117,7 +117,7 @@ bool Elimination::run(double least) {
                       columns_,
                       {inverse_re_.data(), inverse_im_.data()},
                       {multipliers_re_.data(), multipliers_im_.data()}};
-  return continuation::widest([&]() __attribute__((always_inline)) { return eliminate(all, least); });
+  return continuation::widest([&]() __attribute__((always_inline)) { return eliminate_rows(all, least); });
 }
 
 void Elimination::condensed(ComplexMatrix& Z, ComplexVector& f, SplitMatrix& W) const {

@@ -10,8 +10,8 @@
 namespace arcslip::hbm {
 namespace {
 
-constexpr Eigen::Index few = 1;         // linear coordinates
-constexpr Eigen::Index many = 500;      // of them: sparse factors cost less than modes, where there are any
+constexpr Eigen::Index too_few = 1;     // linear coordinates
+constexpr Eigen::Index too_many = 500;  // of them: sparse factors cost less than modes, where there are any
 constexpr double proportional = 1e-12;  // entries of C beside its diagonal
 constexpr double indefinite = 1e-9;     // a negative eigenvalue of M or K, relative to the largest
 
@@ -84,7 +84,7 @@ std::shared_ptr<const FixedInterfaceModes> fixed_interface_modes(const model::Mo
                                                                  const Eigen::MatrixXd& P, int unknowns,
                                                                  double frequency) {
   const Eigen::Index r = unknowns, l = P.cols() - r;
-  if (l <= few || (l > many && is_sparse(model))) return {};
+  if (l <= too_few || (l > too_many && is_sparse(model))) return {};
   auto modes = std::make_shared<FixedInterfaceModes>();
   modes->p = model::defaults(model);
   const auto& p = modes->p;

@@ -10,7 +10,7 @@
 namespace arcslip::hbm {
 namespace {
 
-using Kind = model::LinearKind;
+using model::LinearKind;
 
 bool equal_beside_frequency(const In& a, const Eigen::VectorXd& b) {
   static_assert(model::frequency == 0);
@@ -45,13 +45,13 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
       modes_(std::move(modes)) {
   if (model.sector) sector_ = *model.sector;
   changes_.reserve(most_changes + 1);
-  const auto add = [&](Kind kind, const std::vector<model::LinearPart>& parts) {
+  const auto add = [&](LinearKind kind, const std::vector<model::LinearPart>& parts) {
     for (const model::LinearPart& part : parts)
       parts_.push_back({kind, part.parameter, {P, part.direction, part.next}, std::nan("")});
   };
-  add(Kind::mass, model.masses);
-  add(Kind::damper, model.dampers);
-  add(Kind::spring, model.springs);
+  add(LinearKind::mass, model.masses);
+  add(LinearKind::damper, model.dampers);
+  add(LinearKind::spring, model.springs);
   for (const model::MatrixPart& part : model.matrices) matrix_parts_.push_back({part});
   if (!matrix_parts_.empty()) P_ = P;
   if (!modes_) set_waves(harmonics);
@@ -115,7 +115,7 @@ void LinearParts::set_positions() {
 }
 
 double LinearParts::modal_value(const PartInY& part) const {
-  const bool known = part.parameter < modes_->p.size() && (part.kind != Kind::damper || modes_->damped);
+  const bool known = part.parameter < modes_->p.size() && (part.kind != LinearKind::damper || modes_->damped);
   return known ? modes_->p[part.parameter] : 0;
 }
 
@@ -360,7 +360,7 @@ void LinearParts::add_product(const Factors& g, int n, const ComplexVector& y, C
   }
 }
 
-double LinearParts::quadratic_form(Kind kind, int n, const ComplexVector& y) const {
+double LinearParts::quadratic_form(LinearKind kind, int n, const ComplexVector& y) const {
   double sum = 0;
   const Complex t = turn(n);
   if (!modal_) {
@@ -370,7 +370,9 @@ double LinearParts::quadratic_form(Kind kind, int n, const ComplexVector& y) con
       if (part.of.kind == kind) sum += part.value * matrix_form(part, n, y).real();
     return sum;
   }
-  const ModalMatrix& whole = kind == Kind::mass ? modes_->M : kind == Kind::damper ? modes_->C : modes_->K;
+  const ModalMatrix& whole = kind == LinearKind::mass     ? modes_->M
+                             : kind == LinearKind::damper ? modes_->C
+                                                          : modes_->K;
   sum = whole.form(y);
   for (const ChangedPart& change : changes_)
     if (change.part->kind == kind) sum += change.by * std::norm(change.part->direction.along(y, t));
@@ -392,13 +394,13 @@ Complex LinearParts::skew_form(int n, const ComplexVector& y) const {
 double LinearParts::damping_form(int n, const ComplexVector& y) const {
   const Factors g = factors(n * base_frequency_);
   double sum = 0;
-  for (const Kind kind : {Kind::mass, Kind::damper, Kind::spring})
+  for (const LinearKind kind : {LinearKind::mass, LinearKind::damper, LinearKind::spring})
     if (const double loss = g.of(kind).imag(); loss != 0) sum += loss * quadratic_form(kind, n, y);
   return symmetric_ ? sum : sum + skew_form(n, y).imag();
 }
 
 QuadraticForms LinearParts::quadratic_forms(int n, const ComplexVector& y, double force_factor) const {
-  QuadraticForms forms{quadratic_form(Kind::mass, n, y), quadratic_form(Kind::spring, n, y),
+  QuadraticForms forms{quadratic_form(LinearKind::mass, n, y), quadratic_form(LinearKind::spring, n, y),
                        damping_form(n, y), skew_form(n, y).real(), 0};
   for (const ForceInY& force : forces_) {
     if (force.harmonic != n) continue;

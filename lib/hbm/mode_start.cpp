@@ -17,7 +17,8 @@ constexpr double close_frequency = 0.02;  // of omega and v to the linear mode, 
 constexpr double close_shape = 0.1;
 constexpr double at_a_node = 1e-9;  // the response over the largest coordinate
 constexpr double same_frequency = 1e-9;
-constexpr double beside = 1e-5;  // of their frequency, at which the equations are singular: ln(omega/omega_0)
+// Of several modes, from their frequency, at which the equations are singular: ln(omega/omega_0).
+constexpr double off_resonance = 1e-5;
 constexpr double isolated = 1e-10;  // a motion of modes of one frequency: the least pivot of J
 
 // The static displacement: the means of the motion without excitation.
@@ -180,7 +181,7 @@ ModeStart mode_start(const std::shared_ptr<const model::Model>& model, const mod
   const Vector per_response = unknowns_of(*motions, shape);
   const double ratio = per_response.norm();
   Vector guess(n + 4);
-  guess << per_response / ratio, (alone ? 0 : beside), linear.damping_ratio, std::log(ratio), 0;
+  guess << per_response / ratio, (alone ? 0 : off_resonance), linear.damping_ratio, std::log(ratio), 0;
   continuation::NewtonOptions newton;
   newton.iterations = 30;
   bool found = false;

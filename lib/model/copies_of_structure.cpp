@@ -9,8 +9,6 @@ namespace arcslip::model {
 using Eigen::MatrixXd;
 namespace {
 
-enum class Form { symmetric, skew, general };
-
 scene::Matrices with_stiffness(scene::Matrices matrices, double factor) {
   if (factor == 1) return matrices;
   scene::SparseMatrix K = *matrices.stiffness.matrix;
@@ -48,7 +46,7 @@ std::shared_ptr<const Reduced> CopiesOfStructure::whole(double factor) const {
   std::vector<Index> at(rows_.size());
   for (std::size_t k = 0; k < rows_.size(); ++k)
     at[static_cast<std::size_t>(rows_[k])] = static_cast<Index>(k);
-  const auto dense = [&](const scene::MatrixFile& file, Form form) {
+  const auto dense = [&](const scene::MatrixFile& file, MatrixForm form) {
     if (!file.matrix) return MatrixXd();
     const scene::SparseMatrix& of = *file.matrix;
     MatrixXd A = MatrixXd::Zero(of.rows, of.columns);
@@ -56,18 +54,20 @@ std::shared_ptr<const Reduced> CopiesOfStructure::whole(double factor) const {
       for (auto k = static_cast<std::size_t>(of.starts[j]); k < static_cast<std::size_t>(of.starts[j + 1]);
            ++k)
         A(at[static_cast<std::size_t>(of.row_of[k])], at[j]) = of.values[k];
-    if (form == Form::symmetric) A = 0.5 * (A + A.transpose()).eval();
-    if (form == Form::skew) A = 0.5 * (A - A.transpose()).eval();
+    if (form == MatrixForm::symmetric) A = 0.5 * (A + A.transpose()).eval();
+    if (form == MatrixForm::skew) A = 0.5 * (A - A.transpose()).eval();
     return A;
   };
-  const auto form = [](bool unsymmetric) { return unsymmetric ? Form::general : Form::symmetric; };
+  const auto form = [](bool unsymmetric) {
+    return unsymmetric ? MatrixForm::general : MatrixForm::symmetric;
+  };
   Reduced in;
-  in.M = dense(files_.mass, Form::symmetric);
+  in.M = dense(files_.mass, MatrixForm::symmetric);
   in.K = factor * dense(files_.stiffness, form(files_.unsymmetric_stiffness));
   in.C = dense(files_.damping, form(files_.unsymmetric_damping));
-  in.K2 = dense(files_.stiffness_speed_squared, Form::symmetric);
-  in.G = dense(files_.gyroscopic, Form::skew);
-  in.N = dense(files_.circulatory, Form::skew);
+  in.K2 = dense(files_.stiffness_speed_squared, MatrixForm::symmetric);
+  in.G = dense(files_.gyroscopic, MatrixForm::skew);
+  in.N = dense(files_.circulatory, MatrixForm::skew);
   in.loads.resize(files_.size(), static_cast<Index>(loads_.size()));
   for (std::size_t k = 0; k < loads_.size(); ++k) in.loads.col(static_cast<Index>(k)) = loads_[k].load(rows_);
   return std::make_shared<const Reduced>(std::move(in));

@@ -12,6 +12,8 @@
 
 namespace arcslip::model {
 
+enum class MatrixForm { symmetric, skew, general };
+
 /// A shape of an excitation, its real or its imaginary part.
 struct PlacedShape {
   std::size_t excitation;

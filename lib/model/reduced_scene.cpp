@@ -1,6 +1,7 @@
 #include <arcslip/model/reduced_scene.hpp>
 
 #include <arcslip/model/model.hpp>
+#include <arcslip/model/placed_matrices.hpp>
 #include <arcslip/scene/shape.hpp>
 
 #include <algorithm>
@@ -15,29 +16,26 @@ namespace {
 constexpr double rounding = 1e-9;   // a negative entry of the diagonal, relative to its row
 constexpr int largest_whole = 500;  // rows of matrices without a highest frequency
 
-enum class Form { symmetric, skew, general };
-
 void append(std::string& text, double value) {
   char digits[32];
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
 // A comment, then the entries other than 0; of a symmetric and of a skew-symmetric matrix the lower triangle.
-std::string matrix_market(const Eigen::MatrixXd& A, Form form, const std::string& comment) {
+std::string matrix_market(const Eigen::MatrixXd& A, MatrixForm form, const std::string& comment) {
+  using enum MatrixForm;
   const Eigen::Index n = A.rows();
   std::string lines;
   std::size_t count = 0;
   for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index i = form == Form::general ? 0 : form == Form::symmetric ? j : j + 1; i < n; ++i) {
+    for (Eigen::Index i = form == general ? 0 : form == symmetric ? j : j + 1; i < n; ++i) {
       if (A(i, j) == 0) continue;
       ++count;
       lines += std::to_string(i + 1) + ' ' + std::to_string(j + 1) + ' ';
       append(lines, A(i, j));
       lines += '\n';
     }
-  const char* name = form == Form::symmetric ? "symmetric"
-                     : form == Form::skew    ? "skew-symmetric"
-                                             : "general";
+  const char* name = form == symmetric ? "symmetric" : form == skew ? "skew-symmetric" : "general";
   return std::string("%%MatrixMarket matrix coordinate real ") + name + "\n% " + comment + '\n' +
          std::to_string(n) + ' ' + std::to_string(n) + ' ' + std::to_string(count) + '\n' + lines;
 }
@@ -115,20 +113,22 @@ ReducedScene reduced_scene(const scene::Scene& scene, const std::string& folder,
     reduced.files.emplace_back(name, std::move(content));
     return scene::NamedFile{name, std::make_shared<const std::string>(reduced.files.back().second)};
   };
-  const auto add_matrix = [&](const std::string& name, const Eigen::MatrixXd& A, Form form) {
+  const auto add_matrix = [&](const std::string& name, const Eigen::MatrixXd& A, MatrixForm form) {
     return scene::MatrixFile{add(name, matrix_market(A, form, comment)), nullptr, {}};
   };
-  const auto form = [](bool unsymmetric) { return unsymmetric ? Form::general : Form::symmetric; };
+  const auto form = [](bool unsymmetric) {
+    return unsymmetric ? MatrixForm::general : MatrixForm::symmetric;
+  };
   Blocks blocks(model);
   const Eigen::MatrixXd M = blocks.next();
-  to.mass = add_matrix("M.mtx", M, Form::symmetric);
+  to.mass = add_matrix("M.mtx", M, MatrixForm::symmetric);
   to.stiffness = add_matrix("K.mtx", semidefinite(blocks.next(), M, model.reduction->highest_frequency),
                             form(from.unsymmetric_stiffness));
   if (from.damping.matrix) to.damping = add_matrix("C.mtx", blocks.next(), form(from.unsymmetric_damping));
   if (from.stiffness_speed_squared.matrix)
-    to.stiffness_speed_squared = add_matrix("K2.mtx", blocks.next(), Form::symmetric);
-  if (from.gyroscopic.matrix) to.gyroscopic = add_matrix("G.mtx", blocks.next(), Form::skew);
-  if (from.circulatory.matrix) to.circulatory = add_matrix("N.mtx", blocks.next(), Form::skew);
+    to.stiffness_speed_squared = add_matrix("K2.mtx", blocks.next(), MatrixForm::symmetric);
+  if (from.gyroscopic.matrix) to.gyroscopic = add_matrix("G.mtx", blocks.next(), MatrixForm::skew);
+  if (from.circulatory.matrix) to.circulatory = add_matrix("N.mtx", blocks.next(), MatrixForm::skew);
   std::string names = "name,row\n";
   for (int i = 0; i < model.unnamed_from; ++i)
     names += model.dof_names[static_cast<std::size_t>(i)] + ',' + std::to_string(i + 1) + '\n';

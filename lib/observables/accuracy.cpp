@@ -20,7 +20,7 @@ namespace {
 constexpr std::array orders{1,  2,  3,   5,   7,   9,   11,  15,  21,  27, 39,
                             55, 79, 111, 157, 221, 313, 443, 627, 887, 999};
 constexpr std::array samples_per_order{8, 64};                      // of sampled friction, at least
-constexpr std::array steps{50, 200, 800, 3200};                     // of a period
+constexpr std::array steps_of_period{50, 200, 800, 3200};           // of a period
 constexpr int runs = 3;                                             // at most
 constexpr double long_enough = 0.1;                                 // s: no further run
 constexpr double decades[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8};  // that the sentence tells
@@ -50,8 +50,8 @@ class Trials {
         for (const int order : orders_)
           if (order != first || per_order != samples_per_order[0])
             balance(Way::sampled, order, samples_of(order, per_order));
-    for (const int each : steps) in_time(Way::newmark, TimeMethod::newmark_shooting, each);
-    in_time(Way::shooting, TimeMethod::shooting, steps[0]);
+    for (const int each : steps_of_period) in_time(Way::newmark, TimeMethod::newmark_shooting, each);
+    in_time(Way::shooting, TimeMethod::shooting, steps_of_period[0]);
     finish();
     return std::move(result_);
   }

@@ -27,14 +27,14 @@ constexpr double same_place = 1e-6;      // distance of two branch points, relat
 constexpr double beside_end = 1e-3;      // the same
 constexpr double same_direction = 0.95;  // cosine
 
-Vector joined(const ResponsePoint& point) {
+Vector with_frequency(const ResponsePoint& point) {
   Vector v(point.unknowns.size() + 1);
   v << Eigen::Map<const Vector>(point.unknowns.data(), static_cast<Eigen::Index>(point.unknowns.size())),
       point.omega;
   return v;
 }
 
-Vector joined(continuation::In u, double omega) {
+Vector with_frequency(continuation::In u, double omega) {
   Vector v(u.size() + 1);
   v << u, omega;
   return v;
@@ -116,7 +116,7 @@ class AllBranches {
     std::map<std::string, WiderBranchPoints> wider;
     const auto& all = known_[k].response.events;
     std::vector<Vector> solutions;
-    for (const ResponsePoint& point : known_[k].response.points) solutions.push_back(joined(point));
+    for (const ResponsePoint& point : known_[k].response.points) solutions.push_back(with_frequency(point));
     for (std::size_t e = 0; e < all.size(); ++e) {
       const std::string& kind = all[e].kind;
       const bool doubles = kind == event_kinds::period_doubling;
@@ -166,7 +166,7 @@ class AllBranches {
                                  : "several branches cross there at once, as in symmetric structures");
         continue;
       }
-      HalfBranch way{known_[k].problem, joined(event.point.u, omega), crossing->tangents[1], 0};
+      HalfBranch way{known_[k].problem, with_frequency(event.point.u, omega), crossing->tangents[1], 0};
       continuation::Counts counts;
       const continuation::Corrector with(*way.problem, hbm::parameters_at(*way.problem, omega),
                                          model::frequency, {}, counts);
@@ -356,7 +356,7 @@ class AllBranches {
                             const continuation::Corrector& in, const std::vector<Harmonics>& possible) {
     const auto* crossing = std::get_if<BranchPoint>(&event.data);
     if (!crossing || !event.located || event.nonsmooth) return {};
-    const Vector x = joined(event.point.u, event.point.parameter);
+    const Vector x = with_frequency(event.point.u, event.point.parameter);
     End end{event.point.arclength, x, crossing->tangents.front()};
     for (Way& other : ways_) {
       if (!meets(other, problem, x, in)) continue;

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace arcslip::hbm {
@@ -18,6 +19,8 @@ class HbmEvaluator;
 }
 
 namespace arcslip::observables {
+
+inline constexpr double turn_angle = 2 * std::numbers::pi;
 
 struct Extreme {
   double amplitude = 0;      // |x(theta)|, m

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 namespace arcslip::observables {
@@ -20,8 +19,8 @@ using continuation::Vector;
 
 constexpr double both_at_minus_one = 1e-3;  // two multipliers, at a resonance
 constexpr double reaches[] = {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};  // in scales, beyond an end
-constexpr double beside = 1e-12;  // in scales: the sides of a jump
-constexpr double jumps = 1e-3;    // by more, on both sides of it
+constexpr double jump_width = 1e-12;  // in scales: the sides of a jump
+constexpr double jumps = 1e-3;        // by more, on both sides of it
 
 Monitor kappa_monitor(const char* kind, Eigen::Index at, double kappa, bool terminal) {
   Monitor monitor;
@@ -29,13 +28,6 @@ Monitor kappa_monitor(const char* kind, Eigen::Index at, double kappa, bool term
   monitor.value = [=](const Accepted& now) { return now.u[at] - kappa; };
   monitor.terminal = terminal;
   return monitor;
-}
-
-std::string text(double value) {
-  std::ostringstream s;
-  s.precision(3);
-  s << value;
-  return s.str();
 }
 
 }  // namespace
@@ -117,7 +109,7 @@ void BifurcationTracer::tell_end(const continuation::Branch& branch, SpecialCurv
   if (reason != StopReason::step_too_small && reason != StopReason::not_evaluated) return;
   if (const auto jump = jump_beyond(branch.points.back())) {
     end.reason = &reasons::jump;
-    end.why = "the multipliers jump by " + text(*jump) +
+    end.why = "the multipliers jump by " + to_digits(*jump, 3) +
               ", where a phase of contact begins or ends, and none is where the bifurcation is";
   }
 }
@@ -215,7 +207,7 @@ std::optional<double> BifurcationTracer::jump_beyond(const continuation::Point& 
       before = std::move(beyond);
       continue;
     }
-    for (double to = reach; to - from > beside;) {
+    for (double to = reach; to - from > jump_width;) {
       const double middle = 0.5 * (from + to);
       if (!(middle > from && middle < to)) break;
       auto between = look(middle);

@@ -1,6 +1,7 @@
 #include <arcslip/observables/curve_estimates.hpp>
 
 #include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/truncation.hpp>
 
 #include <Eigen/QR>
 
@@ -17,7 +18,6 @@ namespace {
 constexpr std::size_t on_each_side = 2;
 constexpr double located = 0.1;   // slope of a parameter where it turns, over that at its neighbours
 constexpr double varying = 0.01;  // of d omega next to a cusp: what of it is of second order may vary as much
-constexpr double uncancelled = 0.05;  // of the sizes of parts: what remains of them
 
 struct Neighbour {
   double s = 0;  // arclength from the event
@@ -26,7 +26,7 @@ struct Neighbour {
 
 // Two points on each side of an event, or fewer up to the next corner of the curve; none next to one, and
 // where the curve follows a corner of the responses on one side only. to_corner: the distance to that corner.
-std::vector<Neighbour> neighbours(const SpecialCurve& curve, double arclength, double& to_corner) {
+std::vector<Neighbour> neighbours_of(const SpecialCurve& curve, double arclength, double& to_corner) {
   double from = -HUGE_VAL, to = HUGE_VAL;
   for (const auto& each : curve.events) {
     if (each.event.kind != event_kinds::corner) continue;
@@ -50,14 +50,14 @@ std::vector<Neighbour> neighbours(const SpecialCurve& curve, double arclength, d
   return all;
 }
 
-using Quantity = std::function<double(const Neighbour&)>;
+using NeighbourQuantity = std::function<double(const Neighbour&)>;
 
 using Coefficients = std::array<double, 3>;
 
 // Of y = c_0 s^n + c_1 s^(n+1) + ... with so many terms, by least squares; NaN without as many neighbours.
 // first: in place of s^n.
-Coefficients fitted(const std::vector<Neighbour>& beside, int n, int terms, const Quantity& y_of,
-                    const Quantity& first = {}) {
+Coefficients fitted(const std::vector<Neighbour>& beside, int n, int terms, const NeighbourQuantity& y_of,
+                    const NeighbourQuantity& first = {}) {
   const auto rows = static_cast<Eigen::Index>(beside.size());
   if (rows < terms) return {no_value, no_value, no_value};
   double size = 0;  // of s
@@ -184,7 +184,7 @@ void estimate_change(const SpecialCurve& curve, double arclength, ResponseEvent&
   const bool is_cusp = event.kind == event_kinds::cusp;
   std::vector<Neighbour> beside;
   double to_corner = 0;
-  if (!event.nonsmooth && event.located) beside = neighbours(curve, arclength, to_corner);
+  if (!event.nonsmooth && event.located) beside = neighbours_of(curve, arclength, to_corner);
   const Event it(beside, at);
   Changes changes;
   if (event.kind == event_kinds::minimum || event.kind == event_kinds::maximum)

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 namespace arcslip::observables {
@@ -14,20 +13,13 @@ namespace {
 
 using continuation::StopReason;
 
-constexpr double same = 1e-6;  // events that differ by less, relatively, are one
-
-std::string text(double value) {
-  std::ostringstream s;
-  s.precision(8);
-  s << value;
-  return s.str();
-}
+constexpr double same_event = 1e-6;  // events that differ by less, relatively, are one
 
 // Between two turns at one corner.
 bool is_one_place(const ResponseBranch& part) {
   const ResponsePoint &first = part.points.front(), &last = part.points.back();
-  return part.points.size() <= 2 && std::abs(first.over - last.over) <= same * std::abs(last.over) &&
-         std::abs(first.omega - last.omega) <= same * last.omega;
+  return part.points.size() <= 2 && std::abs(first.over - last.over) <= same_event * std::abs(last.over) &&
+         std::abs(first.omega - last.omega) <= same_event * last.omega;
 }
 
 bool is_extreme(const ResponseEvent& event) {
@@ -93,8 +85,8 @@ bool CurveParts::belongs_to_another(const SpecialCurve& curve, const SpecialCurv
   return each.event.kind != first && each.event.kind != event_kinds::corner &&
          std::any_of(curve.events.begin(), curve.events.end(), [&](const auto& other) {
            const auto &a = other.event.point, &b = each.event.point;
-           return other.event.kind == first && std::abs(a.omega - b.omega) <= same * a.omega &&
-                  std::abs(a.over - b.over) <= same * (way_.upper() - way_.lower());
+           return other.event.kind == first && std::abs(a.omega - b.omega) <= same_event * a.omega &&
+                  std::abs(a.over - b.over) <= same_event * (way_.upper() - way_.lower());
          });
 }
 
@@ -182,7 +174,7 @@ void CurveParts::finish(ResponseBranch& part, const SpecialCurve& curve, bool is
 }
 
 Stop CurveParts::stop(const SpecialCurveEnd& end, double begin, bool has_points, Status& status) const {
-  const std::string where = way_.name + " = " + text(end.over);
+  const std::string where = way_.name + " = " + to_digits(end.over, 8);
   if (has_points && end.vanishes) {
     status = Status::complete;
     return {reasons::fold, end.over, end.over,
@@ -222,7 +214,7 @@ Stop CurveParts::stop(const SpecialCurveEnd& end, double begin, bool has_points,
     stop.message = (stop.value != begin  ? "reached the end of the range at "
                     : begin == way_.from ? "returned to the start of the range at "
                                          : "returned to the end of the range at ") +
-                   way_.name + " = " + text(stop.value);
+                   way_.name + " = " + to_digits(stop.value, 8);
   } else if (!has_points) {
     stop.message = "no curve was started from the " + what_ + " at " + where + ": " + stop.message;
   } else if (end.stop.reason == StopReason::step_too_small) {

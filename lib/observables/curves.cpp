@@ -11,7 +11,6 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <sstream>
 
 namespace arcslip::observables {
 namespace {
@@ -28,13 +27,6 @@ constexpr double least_apart = 1.0 / 64;                  // of responses that a
 constexpr double just_beyond = 1e-3;                      // the end of a curve
 constexpr double meeting = 1e-5;                          // relative: ends of curves that are nearer meet
 constexpr std::size_t most_responses = 24;
-
-std::string text(double value) {
-  std::ostringstream s;
-  s.precision(8);
-  s << value;
-  return s.str();
-}
 
 // The curves of one kind over one parameter. They are started from the special points of responses at some
 // values of the parameter: first both ends of its range, then next to each end of a curve within it, and
@@ -76,11 +68,11 @@ class Curves {
     }
     if (branches.empty()) {
       const std::string& why = failure_.empty() ? unbounded_ : failure_;
-      branches.push_back(parts_.failed(way_.from, "no " + what() + " was found at " + way_.name + " = " +
-                                                      text(way_.from) + ", nor up to " + text(way_.to) +
-                                                      ", between " + frequency_text(window_.lower, unit_) +
-                                                      " and " + frequency_text(window_.upper, unit_) +
-                                                      (why.empty() ? "" : ": " + why)));
+      branches.push_back(parts_.failed(
+          way_.from, "no " + what() + " was found at " + way_.name + " = " + to_digits(way_.from, 8) +
+                         ", nor up to " + to_digits(way_.to, 8) + ", between " +
+                         frequency_text(window_.lower, unit_) + " and " +
+                         frequency_text(window_.upper, unit_) + (why.empty() ? "" : ": " + why)));
     } else if (!failure_.empty()) {
       branches.push_back(parts_.failed(failed_at_, failure_));
     }
@@ -125,12 +117,12 @@ class Curves {
     if (unbounded_.empty()) unbounded_ = response.unbounded;
     if (!response.unknown_stability.empty() && failure_.empty()) {
       failed_at_ = over;
-      failure_ = "the stability of the response at " + way_.name + " = " + text(over) +
+      failure_ = "the stability of the response at " + way_.name + " = " + to_digits(over, 8) +
                  " is not known, and curves may be missing: " + response.unknown_stability;
     }
     if (response.failure.empty() || !failure_.empty()) return;
     failed_at_ = over;
-    failure_ = "the response at " + way_.name + " = " + text(over) +
+    failure_ = "the response at " + way_.name + " = " + to_digits(over, 8) +
                " could not be continued through the window, and curves may be missing: " + response.failure;
   }
 

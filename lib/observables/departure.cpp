@@ -16,8 +16,9 @@ using time::Matrix;
 using time::MotionState;
 using time::Vector;
 
-constexpr double same = 1e-6;           // of two motions, relative
-constexpr double beyond = 0.1;          // between the response and the motion that shooting finds, relative
+constexpr double returned_distance = 1e-6;  // of two motions, relative
+constexpr double shooting_distance =
+    0.1;                                // between the response and the motion that shooting finds, relative
 constexpr int most_measured = 100;      // periods
 constexpr double well_followed = 1e-3;  // by one multiplier
 
@@ -88,7 +89,7 @@ Departure departure(const Integrator& integrator, const MotionState& beside, dou
   const Eigen::Index n = beside.x.size();
   const Vector at = stacked(shot.start, omega);
   const double size = at.norm();
-  if (!shot.converged() || (at - stacked(beside, omega)).norm() > beyond * size) {
+  if (!shot.converged() || (at - stacked(beside, omega)).norm() > shooting_distance * size) {
     found.failure = shot.converged() ? "shooting from the response came to another motion, which is " +
                                            std::to_string((at - stacked(beside, omega)).norm() / size) +
                                            " of its size away: take more harmonics"
@@ -122,8 +123,8 @@ Departure departure(const Integrator& integrator, const MotionState& beside, dou
       [&](long periods, double change) { return !progress || progress(measured + periods, change); });
   found.end.periods += measured;
   found.distance = (stacked(found.end.state, omega) - at).norm() / size;
-  found.returned =
-      found.end.reason == time::SettleEnd::settled && found.end.period == 1 && found.distance <= same;
+  found.returned = found.end.reason == time::SettleEnd::settled && found.end.period == 1 &&
+                   found.distance <= returned_distance;
   return found;
 }
 

@@ -22,12 +22,9 @@ using continuation::Vector;
 constexpr double points_in_window = 150;           // at least, from end to end, of a curve
 constexpr double events_in_window = 20;            // the same, where only its events are asked for
 constexpr double step_between_events = 1.0 / 200;  // relative to the highest frequency
-constexpr double curve_tolerance = 1e-5;           // no resonance narrower than a step goes by unseen
-constexpr double resolvable = 1e8;  // |u| over that at the start: beyond, rounding leaves less than 8 digits
-constexpr double smallest_step = 1e-2;          // of the largest at the low end of the window
-constexpr double largest_relative_step = 0.05;  // of the frequency, so that wide windows keep their low end
-constexpr double rejected_in_rounding = 0.5;    // steps, over points: where the branch lies in its rounding
-constexpr int quick_dofs = 200;                 // up to here a problem is made in a tenth of a second
+constexpr double largest_frequency_step = 0.05;  // of the frequency, so that wide windows keep their low end
+constexpr double rejected_in_rounding = 0.5;     // steps, over points: where the branch lies in its rounding
+constexpr int quick_dofs = 200;                  // up to here a problem is made in a tenth of a second
 
 // What may have made a computation fail, as the end of its message.
 std::string causes(const model::Model& model, const Vector& p) {
@@ -177,9 +174,9 @@ continuation::Options frequency_options(const FrequencyWindow& window, Steps ste
   if (steps == Steps::events)
     options.step.largest_parameter = std::clamp(step_between_events * window.upper,
                                                 options.step.largest_parameter, width / events_in_window);
-  options.step.relative_parameter = largest_relative_step;
+  options.step.relative_parameter = largest_frequency_step;
   options.step.smallest =
-      std::max(std::min(options.step.smallest, smallest_step * largest_relative_step * window.lower / width),
+      std::max(std::min(options.step.smallest, smallest_step * largest_frequency_step * window.lower / width),
                std::numeric_limits<double>::min());  // also where the window spans hundreds of decades
   options.largest_state = resolvable;
   options.go_on = go_on;

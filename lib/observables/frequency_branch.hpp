@@ -73,6 +73,9 @@ void tell_end(const continuation::BranchStop& stop, double from, double upper, s
 /// Called at each point (event: null) and each event; false stops.
 using Record = std::function<bool(Observer&, const continuation::Accepted&, const continuation::Event*)>;
 
+/// Of curves of responses and of modes: no resonance narrower than a step goes by unseen.
+inline constexpr double curve_tolerance = 1e-5;
+
 /// Maximum step. curve: about 1/150 of the window, for plots. events: for peaks and folds only, at least
 /// 1/200 of the highest frequency, but at most 1/20 of the window. passage: as curve, without peaks, and with
 /// folds at kinks to the length of a step only, for where the branch passes a frequency.

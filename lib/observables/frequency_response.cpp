@@ -19,8 +19,6 @@ namespace {
 using continuation::StopReason;
 using continuation::Vector;
 
-constexpr double beyond_display = 1e6;  // |u| in scales: larger responses may be unbounded
-
 // Branches that leave others are found by it.
 StabilityRequest stability_of(const FrequencyRange& range) {
   StabilityRequest request = range.stability;

@@ -16,10 +16,10 @@ namespace arcslip::observables {
 namespace {
 
 constexpr double least_jump = 0.02;  // of the amplitude, relative: what is looked at
-constexpr double growth = 2;         // of the change from one step to the next: likewise
+constexpr double least_growth = 2;   // of the change from one step to the next: likewise
 constexpr double left_over = 0.25;   // of the change, in a part of the step: a jump
-constexpr int halvings = 10;         // of the step
-constexpr int most_parts = 60;       // motions sought within a step
+constexpr int step_halvings = 10;    // of the step
+constexpr int most_motions = 60;     // motions sought within a step
 
 using time::MotionState;
 using time::Settled;
@@ -189,13 +189,13 @@ class Sweeping {
     const double last = std::exchange(last_change_, whole);
     const double size = std::max(from.motion.amplitude, to.motion.amplitude);
     const bool is_first = now_.points.size() == 2;  // there is nothing to compare with
-    if (is_first || !(whole > least_jump * size && whole > growth * last) ||
+    if (is_first || !(whole > least_jump * size && whole > least_growth * last) ||
         !(is_settled(from) || is_settled(to)))
       return true;
     const double jump = left_over * whole;
-    const double least = 1.5 * std::ldexp(std::abs(to.omega - from.omega), -halvings);
+    const double least = 1.5 * std::ldexp(std::abs(to.omega - from.omega), -step_halvings);
     Reached a = from, b = to;
-    for (int parts = 0; parts < most_parts; ++parts) {
+    for (int parts = 0; parts < most_motions; ++parts) {
       if (change(a, b) < jump) return true;
       const bool divide = std::abs(b.omega - a.omega) > least;
       std::optional<Reached> next = reach(divide ? 0.5 * (a.omega + b.omega) : b.omega, a.motion.state);

@@ -15,8 +15,8 @@ namespace {
 using continuation::Vector;
 using model::LinearKind;
 
-constexpr int most_dofs = 200;       // of which all modes are computed
-constexpr double with_mass = 1e-12;  // of the largest 1/(omega^2 + shift): others are massless
+constexpr int most_dofs_for_modes = 200;  // of which all modes are computed
+constexpr double with_mass = 1e-12;       // of the largest 1/(omega^2 + shift): others are massless
 
 // Symmetric, with the stiffnesses of the elements.
 Eigen::MatrixXd whole_stiffness(const model::Model& model, const Vector& p,
@@ -40,11 +40,11 @@ double shift_of(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K) {
 }
 
 // The modes with mass, V^T M V = the largest |M_ij|, and omega^2: the same digits in all units.
-struct Modes {
+struct ModesWithMass {
   Vector squares;
   Eigen::MatrixXd V;
 };
-Modes modes_with_mass(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K) {
+ModesWithMass modes_with_mass(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K) {
   const double mass = std::max(M.cwiseAbs().maxCoeff(), 1e-300);
   const double stiffness = std::max(K.cwiseAbs().maxCoeff(), 1e-300);
   const auto modes = continuation::symmetric_modes(M / mass, K / stiffness + M / mass);
@@ -80,7 +80,7 @@ Eigen::MatrixXd skew_damping(const model::Model& model, const Vector& p) {
 // with mass: those without have no gyroscopic forces.
 double highest_square(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const Eigen::MatrixXd& G) {
   if (G.size() == 0 || G.isZero(0)) return highest_square(M, K);
-  const Modes modes = modes_with_mass(M, K);
+  const ModesWithMass modes = modes_with_mass(M, K);
   const Eigen::Index n = modes.squares.size();
   if (n == 0) return 0;
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
@@ -156,7 +156,7 @@ void add_modes(const model::Model& model, const Vector& p, const Eigen::MatrixXd
                const Eigen::MatrixXd& dampers, const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& K,
                std::complex<double> turn, std::vector<ResonantMode>& to) {
   const model::ProportionalDamping none, &damping = model.damping ? *model.damping : none;
-  const Modes modes = modes_with_mass(M, K);
+  const ModesWithMass modes = modes_with_mass(M, K);
   for (Eigen::Index k = 0; k < modes.squares.size(); ++k) {
     const double omega = std::sqrt(std::max(modes.squares[k], 0.0));
     const Vector phi = modes.V.col(k);
@@ -188,7 +188,7 @@ double highest_natural_frequency(const model::Model& model, const Vector& p,
 }
 
 std::optional<std::vector<ResonantMode>> resonant_modes(const model::Model& model, const Vector& p) {
-  if (model.dofs > most_dofs || !model::is_symmetric(model)) return {};
+  if (model.dofs > most_dofs_for_modes || !model::is_symmetric(model)) return {};
   std::vector<ResonantMode> all;
   if (model.sector) {
     for (const int diameter : diameters(*model.sector)) {

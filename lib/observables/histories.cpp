@@ -13,8 +13,6 @@ namespace {
 
 using continuation::Vector;
 
-constexpr double turn = 2 * std::numbers::pi;
-
 scene::Scene scene_at(scene::Scene scene, const ResponseBranch& branch, const ResponsePoint& point) {
   for (const auto& [name, value] : branch.set) scene::set(scene, name, value);
   if (!branch.over.empty()) scene::set(scene, branch.over, point.over);
@@ -87,13 +85,13 @@ History history(const scene::Scene& scene, const ResponseBranch& branch, const R
 
 std::vector<double> even_angles(int count) {
   std::vector<double> angles(static_cast<std::size_t>(std::max(count, 0)));
-  for (std::size_t k = 0; k < angles.size(); ++k) angles[k] = turn * static_cast<double>(k) / count;
+  for (std::size_t k = 0; k < angles.size(); ++k) angles[k] = turn_angle * static_cast<double>(k) / count;
   return angles;
 }
 
 std::vector<double> loop_angles(const ResponsePoint& point, int count) {
   std::vector<double> angles = even_angles(count);
-  angles.push_back(turn);
+  angles.push_back(turn_angle);
   for (const ElementResponse& element : point.elements) {
     angles.insert(angles.end(), element.slip_angles.begin(), element.slip_angles.end());
     angles.insert(angles.end(), element.reversal_angles.begin(), element.reversal_angles.end());

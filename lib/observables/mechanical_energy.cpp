@@ -9,8 +9,8 @@ namespace {
 
 using continuation::Vector;
 
-constexpr int instants = 8;   // looked at, for each order of the energy
-constexpr int halvings = 52;  // of the time between two of them
+constexpr int instants_per_order = 8;  // looked at, for each order of the energy
+constexpr int interval_halvings = 52;  // of the time between two of them
 
 // The displacements of an element at one instant.
 Vector displacements(const elements::Law& law, const elements::Harmonics& h, elements::In motion,
@@ -30,7 +30,7 @@ MechanicalEnergy::MechanicalEnergy(std::shared_ptr<const hbm::HbmProblem> proble
   M_ = model::mass_matrix(model, own);
   K_ = model::stiffness_matrix(model, own);
   const elements::Harmonics& h = problem_->harmonics();
-  const int count = instants * (h.order + 1) * (h.odd ? 1 : 2);
+  const int count = instants_per_order * (h.order + 1) * (h.odd ? 1 : 2);
   basis_.resize(h.size(), count);
   for (int k = 0; k < count; ++k) elements::series_basis(h, h.span() * k / count, basis_.col(k));
   phi_.resize(h.size());
@@ -100,7 +100,7 @@ double MechanicalEnergy::of(const hbm::HbmEvaluator& at, continuation::In u) {
   v.cwiseProduct(M_ * v).colwise().sum().maxCoeff(&best);
   const double step = h.span() / static_cast<double>(basis_.cols());
   double from = step * static_cast<double>(best - 1), to = step * static_cast<double>(best + 1);
-  for (int k = 0; k < halvings; ++k) {
+  for (int k = 0; k < interval_halvings; ++k) {
     const double middle = 0.5 * (from + to);
     elements::series_basis(h, middle, phi_);
     now_.noalias() = velocity_.transpose() * phi_;

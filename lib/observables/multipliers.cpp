@@ -11,9 +11,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double neutral = 1e-10;   // |mu| above 1 by less is rounding
-constexpr double rounding = 1e-11;  // of 1 - |mu|^2, where the structure is undamped
-constexpr double real = 1e-9;       // |imaginary part| of a real multiplier, relative
+constexpr double neutral = 1e-10;  // |mu| above 1 by less is rounding
+constexpr double real = 1e-9;      // |imaginary part| of a real multiplier, relative
 
 bool is_complex(const Complex& multiplier) {
   return std::abs(multiplier.imag()) > real * std::abs(multiplier);
@@ -69,8 +68,8 @@ double at_unit_modulus(const Multipliers& multipliers) {
       const Complex &a = multipliers[i], &b = multipliers[j];
       const Complex factor = 1.0 - a * b;
       const bool conjugates = a.imag() != 0 && a == std::conj(b), both_real = a.imag() == 0 && b.imag() == 0;
-      const bool on_circle = (conjugates || both_real) && std::abs(factor) < rounding;
-      size = std::min(size, on_circle ? rounding : std::abs(factor));
+      const bool on_circle = (conjugates || both_real) && std::abs(factor) < multiplier_rounding;
+      size = std::min(size, on_circle ? multiplier_rounding : std::abs(factor));
       if ((conjugates || both_real) && !on_circle && factor.real() < 0) negative = !negative;
     }
   return negative ? -size : size;

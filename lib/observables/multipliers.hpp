@@ -19,6 +19,9 @@ namespace arcslip::observables {
 
 using Multipliers = std::vector<std::complex<double>>;
 
+/// Of functions of multipliers, such as 1 - |mu|^2, where the structure is undamped.
+inline constexpr double multiplier_rounding = 1e-11;
+
 /// How many lie outside the unit circle, by more than rounding.
 int count_unstable(const Multipliers& multipliers);
 

@@ -25,12 +25,10 @@ using continuation::Crossing;
 using continuation::StopReason;
 using continuation::Vector;
 
-constexpr double points_in_range = 150;       // at least
-constexpr double curve_tolerance = 1e-5;      // as of frequency responses
 constexpr double alone = 3e-2;                // of a harmonic and its multiples: what the others have
-constexpr double resolvable = 1e8;            // the motion over that of the response
+constexpr double largest_ratio = 1e8;         // the motion over that of the response
 constexpr const char* outgrown = "outgrown";  // the monitor of that
-constexpr double within = 1e-9;               // the ends of the range: of its logarithm, where a peak may be
+constexpr double within_ends = 1e-9;          // the ends of the range: of its logarithm, where a peak may be
 
 std::string metres(double amplitude) {
   std::ostringstream s;
@@ -54,9 +52,9 @@ continuation::Monitor amplitude_monitor(double log_amplitude) {
   return monitor;
 }
 
-class Modes {
+class ModeStudy {
  public:
-  Modes(const scene::Scene& scene, const ModeRange& range, const results::ProgressCallback& progress)
+  ModeStudy(const scene::Scene& scene, const ModeRange& range, const results::ProgressCallback& progress)
       : unit_(scene.frequency_unit),
         range_(range),
         progress_(progress),
@@ -153,10 +151,11 @@ class Modes {
       const double width = options.upper - options.lower;
       for (int k = 0; k < range_.true_peaks; ++k) {
         const double share = range_.true_peaks > 1 ? static_cast<double>(k) / (range_.true_peaks - 1) : 0.5;
-        monitors.push_back(amplitude_monitor(options.lower + std::clamp(share, within, 1 - within) * width));
+        monitors.push_back(
+            amplitude_monitor(options.lower + std::clamp(share, within_ends, 1 - within_ends) * width));
       }
     }
-    monitors.push_back(continuation::bound_monitor(outgrown, problem->log_ratio(), std::log(resolvable)));
+    monitors.push_back(continuation::bound_monitor(outgrown, problem->log_ratio(), std::log(largest_ratio)));
     auto traced = continuation::trace(problem, {u, Vector::Constant(1, options.lower), 0, 1}, options,
                                       monitors, record);
     speak_of_scene(*model_, model::defaults(*model_), traced);
@@ -340,7 +339,7 @@ class Modes {
 
 std::vector<ResponseBranch> nonlinear_modes(const scene::Scene& scene, const ModeRange& range,
                                             const results::ProgressCallback& progress) {
-  return {Modes(scene, range, progress).run()};
+  return {ModeStudy(scene, range, progress).run()};
 }
 
 }  // namespace arcslip::observables

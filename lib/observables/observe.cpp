@@ -16,7 +16,7 @@ namespace {
 // Of the motion of the elements: a response below is their rounding, as where symmetry holds it at 0.
 constexpr double at_rest = 1e-13;
 
-const hbm::HbmEvaluator& evaluator_of(const continuation::Accepted& now) {
+const hbm::HbmEvaluator& hbm_evaluator_of(const continuation::Accepted& now) {
   return static_cast<const hbm::HbmEvaluator&>(now.at);
 }
 
@@ -57,7 +57,7 @@ double Observer::amplitude_change(const hbm::HbmEvaluator& at, continuation::In 
 double Observer::amplitude_slope(const continuation::Accepted& now) {
   const Eigen::Index n = now.u.size();
   const double slope =
-      amplitude_change(evaluator_of(now), now.u, now.tangent.head(n), {{free_, now.tangent[n]}});
+      amplitude_change(hbm_evaluator_of(now), now.u, now.tangent.head(n), {{free_, now.tangent[n]}});
   if (last_.amplitude > at_rest * now.u.norm()) return slope;
   last_ = {};
   return 0;
@@ -107,7 +107,7 @@ const StabilityAnalysis* Observer::stability(const continuation::Accepted& now) 
   if (stable_u_.size() != now.u.size() || stable_u_ != now.u || stable_p_ != now.p) {
     stable_u_ = now.u;
     stable_p_ = now.p;
-    stability_known_ = stability_->move_to(*problem_, evaluator_of(now), stable_p_);
+    stability_known_ = stability_->move_to(*problem_, hbm_evaluator_of(now), stable_p_);
   }
   return stability_known_ ? &*stability_ : nullptr;
 }
@@ -169,7 +169,7 @@ void Observer::estimate_stick(const continuation::Accepted& now, ResponsePoint& 
 }
 
 ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, bool maxima) {
-  const auto& at = evaluator_of(now);
+  const auto& at = hbm_evaluator_of(now);
   ResponsePoint point = motion(at, now.u, now.p);
   const Extreme at_most = last_;
   point.phase = phase(now.p, x_);

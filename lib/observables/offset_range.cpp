@@ -16,11 +16,11 @@ namespace {
 using continuation::In;
 using continuation::Vector;
 
-constexpr double same = 1e-10;          // relative: amplitudes that are one
-constexpr double least_slope = 1e-9;    // of the amplitude, over the whole way of a slider
-constexpr double least_way = 1.0 / 64;  // of a segment: a shorter step is not tried
-constexpr int rounds = 40;              // of a search
-constexpr int line_steps = 40;          // of golden sections
+constexpr double same_amplitude = 1e-10;  // relative: amplitudes that are one
+constexpr double least_slope = 1e-9;      // of the amplitude, over the whole way of a slider
+constexpr double least_way = 1.0 / 64;    // of a segment: a shorter step is not tried
+constexpr int rounds = 40;                // of a search
+constexpr int line_steps = 40;            // of golden sections
 
 /// The shares s of the elements, -1 where a slider cannot be placed.
 using Shares = Eigen::ArrayXd;
@@ -110,7 +110,7 @@ class Search {
   Place highest_from(Place now) {
     for (int i = 0; i < rounds; ++i) {
       const auto next = go(now, corner(now, now.slope));
-      if (!next || !(next->amplitude > now.amplitude * (1 + same))) break;
+      if (!next || !(next->amplitude > now.amplitude * (1 + same_amplitude))) break;
       now = *next;
     }
     return now;
@@ -120,7 +120,7 @@ class Search {
   Place lowest_from(Place now) {
     for (int i = 0; i < rounds; ++i) {
       const Place next = lowest_between(now, corner(now, -now.slope));
-      if (!(next.amplitude < now.amplitude * (1 - same))) break;
+      if (!(next.amplitude < now.amplitude * (1 - same_amplitude))) break;
       now = next;
     }
     return now;

@@ -7,22 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace arcslip::observables {
 namespace {
 
-constexpr double points_in_range = 150;             // at least, from end to end
-constexpr double largest_relative_step = 1.0 / 12;  // of the parameter
-constexpr double smallest_step = 1e-2;              // of the largest at the low end of the range
-constexpr double resolvable = 1e8;  // |u| over that at the start: beyond, rounding leaves less than 8 digits
-
-std::string text(double value) {
-  std::ostringstream s;
-  s.precision(8);
-  s << value;
-  return s.str();
-}
+constexpr double largest_parameter_step = 1.0 / 12;  // of the parameter
 
 }  // namespace
 
@@ -35,11 +24,11 @@ continuation::Options OverParameter::options() const {
       std::min(upper() - lower(), std::numeric_limits<double>::max()) / points_in_range;
   options.largest_state = resolvable;
   if (!has_one_sign()) return options;
-  options.step.relative_parameter = largest_relative_step;
+  options.step.relative_parameter = largest_parameter_step;
   const double scale = model->parameters[static_cast<std::size_t>(index)].scale;
   const double least = std::min(std::abs(from), std::abs(to));
   options.step.smallest =
-      std::max(std::min(options.step.smallest, smallest_step * largest_relative_step * least / scale),
+      std::max(std::min(options.step.smallest, smallest_step * largest_parameter_step * least / scale),
                std::numeric_limits<double>::min());
   return options;
 }
@@ -90,7 +79,7 @@ void tell_end(const OverParameter& way, const continuation::BranchStop& stop, co
   result.stop.limit = way.to;
   if (stop.value == way.to) {
     result.doubt = doubt;
-    result.stop.message = "reached the end of the range at " + way.name + " = " + text(way.to) +
+    result.stop.message = "reached the end of the range at " + way.name + " = " + to_digits(way.to, 8) +
                           (doubt.empty() ? "" : "; " + doubt);
     return;
   }
@@ -99,8 +88,8 @@ void tell_end(const OverParameter& way, const continuation::BranchStop& stop, co
   for (const auto& event : result.events)
     if (event.kind == event_kinds::fold && way.direction() * (event.point.over - farthest) > 0)
       farthest = event.point.over;
-  result.stop.message = "turned back at " + way.name + " = " + text(farthest) +
-                        " and left the range at its start, " + text(way.from);
+  result.stop.message = "turned back at " + way.name + " = " + to_digits(farthest, 8) +
+                        " and left the range at its start, " + to_digits(way.from, 8);
 }
 
 }  // namespace arcslip::observables

@@ -21,8 +21,6 @@ using continuation::Crossing;
 using continuation::StopReason;
 using continuation::Vector;
 
-constexpr double same = 1e-6;  // responses that differ by less, relatively, are one
-
 continuation::Monitor extreme_monitor(const char* kind, Crossing crossing,
                                       const std::shared_ptr<Observer>& observer) {
   continuation::Monitor monitor{kind,
@@ -54,7 +52,7 @@ class Traces {
     bool reached = false;
     for (const Vector& start : starts.u) {
       if (std::any_of(ends.begin(), ends.end(),
-                      [&](const Vector& end) { return (start - end).norm() <= same * end.norm(); }))
+                      [&](const Vector& end) { return (start - end).norm() <= same_solution * end.norm(); }))
         continue;
       const auto traced = trace(starts.problem, start, branches.emplace_back());
       ends.push_back(start);

@@ -11,17 +11,17 @@
 namespace arcslip::observables {
 namespace {
 
-constexpr std::size_t neighbours = 3;  // points on each side that a part takes with it
-constexpr std::size_t apart = 4;       // points between two parts: fewer belong to one
-constexpr double most_refined = 0.8;   // of the points: beyond, the whole branch is traced anew
-constexpr double same_response = 40;   // times the error allowed: the estimate is at least |dx|/20
+constexpr std::size_t overlap = 3;         // points on each side that a part takes with it
+constexpr std::size_t points_between = 4;  // points between two parts: fewer belong to one
+constexpr double most_refined = 0.8;       // of the points: beyond, the whole branch is traced anew
+constexpr double same_response = 40;       // times the error allowed: the estimate is at least |dx|/20
 
 elements::Harmonics harmonics_of(const ResponseBranch& branch) {
   return {branch.harmonics.back(), branch.harmonics.front() > 0, branch.period};
 }
 
-std::vector<double> in_harmonics(const std::vector<double>& u, const elements::Harmonics& from,
-                                 const elements::Harmonics& to) {
+std::vector<double> unknowns_in_harmonics(const std::vector<double>& u, const elements::Harmonics& from,
+                                          const elements::Harmonics& to) {
   const auto blocks = static_cast<Eigen::Index>(u.size()) / from.size();
   std::vector<double> wider(static_cast<std::size_t>(blocks * to.size()));
   elements::transfer(from, Eigen::Map<const Eigen::VectorXd>(u.data(), static_cast<Eigen::Index>(u.size())),
@@ -44,7 +44,7 @@ double largest_amplitude(const ResponseBranch& branch) {
 }
 
 // The largest difference of a coefficient of the response, m.
-double distance(const ResponsePoint& a, const ResponsePoint& b) {
+double point_distance(const ResponsePoint& a, const ResponsePoint& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.coefficients.size(); ++i)
     most = std::max(most, std::abs(a.coefficients[i] - b.coefficients[i]));
@@ -106,7 +106,7 @@ double place_of(const ResponseBranch& branch, const ResponsePoint& point) {
 
 ResponsePoint in_harmonics(ResponsePoint point, const ResponseBranch& from, const ResponseBranch& to) {
   if (!point.unknowns.empty())
-    point.unknowns = in_harmonics(point.unknowns, harmonics_of(from), harmonics_of(to));
+    point.unknowns = unknowns_in_harmonics(point.unknowns, harmonics_of(from), harmonics_of(to));
   if (!point.coefficients.empty()) {
     std::vector<double> wider(2 * to.harmonics.size());
     for (std::size_t i = 0; i < from.harmonics.size(); ++i) {
@@ -134,11 +134,12 @@ std::vector<Part> parts_to_refine(const ResponseBranch& branch, double allowed) 
   std::vector<Growing> growing;
   for (std::size_t i = 0; i < n; ++i) {
     if (!more[i]) continue;
-    std::size_t first = i > neighbours ? i - neighbours : 0;
+    std::size_t first = i > overlap ? i - overlap : 0;
     while (!may[first]) --first;
-    if (growing.empty() || first > growing.back().part.last + apart) growing.push_back({{first, first}});
+    if (growing.empty() || first > growing.back().part.last + points_between)
+      growing.push_back({{first, first}});
     Growing& last = growing.back();
-    last.go_to(branch, std::min(i + neighbours, n - 1));
+    last.go_to(branch, std::min(i + overlap, n - 1));
     while (last.part.last + 1 < n && !(may[last.part.last] && last.is_left(branch)))
       last.go_to(branch, last.part.last + 1);
   }
@@ -198,7 +199,7 @@ std::optional<RefinedBranch> refined_branch(
          {std::pair(part.first, &found->points.front()), std::pair(part.last, &found->points.back())}) {
       const ResponsePoint before = in_harmonics(branch.points[i], branch, *found);
       const bool is_inner = i > 0 && i + 1 < branch.points.size();  // there its estimate is small
-      if (is_inner && distance(before, *now) > same_response * allowed) return {};
+      if (is_inner && point_distance(before, *now) > same_response * allowed) return {};
       change = std::max(change, std::abs(now->amplitude - before.amplitude));
     }
     change = std::max(change, std::abs(largest_amplitude(*found) - largest_amplitude(branch, part)));

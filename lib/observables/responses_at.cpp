@@ -16,7 +16,6 @@ namespace {
 using continuation::Vector;
 
 constexpr double search_ratio = 4;  // of frequencies: the window in which other responses are looked for
-constexpr double same = 1e-6;       // responses that differ by less, relatively, are one
 
 bool may_have_several(const model::Model& model) {
   const Vector p = model::defaults(model);
@@ -47,7 +46,9 @@ void add_others(const std::shared_ptr<const model::Model>& model, double omega, 
     if ((a.parameter < omega) == (b.parameter < omega)) continue;
     const double share = (omega - a.parameter) / (b.parameter - a.parameter);
     const auto u = hbm::response_near(*swept.problem, p, a.u + share * (b.u - a.u));
-    const auto is_same = [&](const Vector& other) { return (*u - other).norm() <= same * other.norm(); };
+    const auto is_same = [&](const Vector& other) {
+      return (*u - other).norm() <= same_solution * other.norm();
+    };
     if (!u)
       found.doubt = "another response, where a branch crosses the frequency, could not be corrected";
     else if (std::none_of(found.u.begin(), found.u.end(), is_same))

@@ -15,7 +15,7 @@ namespace {
 
 using continuation::Accepted;
 
-time::ShootingEvaluator& evaluator_of(const Accepted& now) {
+time::ShootingEvaluator& shooting_evaluator_of(const Accepted& now) {
   return static_cast<time::ShootingEvaluator&>(now.at);
 }
 
@@ -70,7 +70,7 @@ void ShootingObserver::add_elements(const time::EventDrivenMotion& motion,
 }
 
 ResponsePoint ShootingObserver::observe(const Accepted& now) {
-  time::ShootingEvaluator& at = evaluator_of(now);
+  time::ShootingEvaluator& at = shooting_evaluator_of(now);
   const time::EventDrivenMotion motion = at.motion();
   ResponsePoint point;
   point.omega = now.p[model::frequency];
@@ -93,15 +93,15 @@ ResponsePoint ShootingObserver::observe(const Accepted& now) {
 }
 
 double ShootingObserver::amplitude_slope(const Accepted& now) {
-  const time::Orbit& orbit = evaluator_of(now).orbit();
+  const time::Orbit& orbit = shooting_evaluator_of(now).orbit();
   amplitude_ = orbit.amplitude;
   const Eigen::Index n = now.u.size();
   return orbit.amplitude_by.head(n).dot(now.tangent.head(n)) +
-         evaluator_of(now).amplitude_derivative(free_) * now.tangent[n];
+         shooting_evaluator_of(now).amplitude_derivative(free_) * now.tangent[n];
 }
 
 const std::vector<std::complex<double>>& ShootingObserver::multipliers(const Accepted& now) {
-  const time::PeriodMap& map = evaluator_of(now).orbit().map;
+  const time::PeriodMap& map = shooting_evaluator_of(now).orbit().map;
   if (monodromy_.size() == 0 || map.monodromy != monodromy_) {
     monodromy_ = map.monodromy;
     multipliers_ = time::multipliers_of(map);

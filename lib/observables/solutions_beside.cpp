@@ -1,6 +1,7 @@
 #include <arcslip/observables/solutions_beside.hpp>
 
 #include <arcslip/continuation/diagrams/deflation.hpp>
+#include <arcslip/observables/study_branches.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +13,6 @@ namespace arcslip::observables {
 using continuation::Vector;
 
 namespace {
-
-constexpr double same = 1e-6;  // of two solutions, relative
 
 // x(theta + phi), times a factor.
 Vector shifted(const hbm::HbmProblem& problem, const Vector& u, double phi, double factor) {
@@ -71,7 +70,9 @@ std::optional<Vector> solution_beside(const hbm::HbmProblem& problem, double ome
   for (const Vector& each : known) {
     guesses.push_back(each);
     for (Vector& image : images(problem, each)) {
-      const auto is_it = [&](const Vector& other) { return (other - image).norm() <= same * image.norm(); };
+      const auto is_it = [&](const Vector& other) {
+        return (other - image).norm() <= same_solution * image.norm();
+      };
       if (std::none_of(all.begin(), all.end(), is_it)) all.push_back(std::move(image));
     }
   }

@@ -17,11 +17,12 @@ using continuation::Monitor;
 using continuation::StopReason;
 using continuation::Vector;
 
-constexpr double grown = 1e5;   // |u| in scales: where it is asked whether a response just ahead is unbounded
-constexpr double ahead = 1e-2;  // of the parameter
+constexpr double grown_size =
+    1e5;  // |u| in scales: where it is asked whether a response just ahead is unbounded
+constexpr double look_ahead = 1e-2;           // of the parameter
 constexpr const char* below_event = "below";  // the slope vanishes on this side of a corner
 constexpr const char* above_event = "above";
-constexpr int most_parts = 64;
+constexpr int most_curve_parts = 64;  // smooth ones and corners, of one curve
 
 }  // namespace
 
@@ -89,7 +90,7 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
     }
     at = *corner;
   }
-  for (int part = 0; part < most_parts; ++part) {
+  for (int part = 0; part < most_curve_parts; ++part) {
     const std::size_t before_part = result_.points.size();
     const continuation::Branch branch = trace(at);
     end.stop = branch.stop;
@@ -166,9 +167,9 @@ continuation::Branch SpecialCurveTracer::trace(const CurveStart& from) {
     if (corner) result_.points.back().corner = hbm::at_angles(*from.corner, now.u);
     if (terminal) return true;
     const double omega = now.u[n];
-    if (now.u.head(n).norm() > grown * problem_->displacement()) {
+    if (now.u.head(n).norm() > grown_size * problem_->displacement()) {
       Vector p = parameters(now.u, now.parameter);
-      p[way_.index] *= 1 + (now.tangent[now.u.size()] < 0 ? -ahead : ahead);
+      p[way_.index] *= 1 + (now.tangent[now.u.size()] < 0 ? -look_ahead : look_ahead);
       if (const auto growth = unboundedness(*problem_, p, now.u.head(n)); growth.unbounded) {
         result_.end.unbounded = growth.message;
         return false;
@@ -205,8 +206,6 @@ namespace {
 using continuation::Accepted;
 using continuation::StopReason;
 using continuation::Vector;
-
-constexpr double beyond_display = 1e6;  // |u| in scales: where it is asked whether the response is bounded
 
 // From `from` to the next pole, or to the end of the window. Returns where the branch goes on beyond that
 // pole, or the end of the window that it reached.

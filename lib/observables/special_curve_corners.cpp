@@ -16,8 +16,8 @@ namespace {
 
 using continuation::Vector;
 
-constexpr double near_corner = 1e-3;  // relative: where a corner is looked for
-constexpr double at_corner = 1e-6;    // of mu F_n: where two corners meet
+constexpr double near_corner = 1e-3;      // relative: where a corner is looked for
+constexpr double corners_meeting = 1e-6;  // of mu F_n: where two corners meet
 // Of the parameter: from one part of the curve to the next.
 constexpr double besides[] = {1e-6, 1e-5, 1e-4, 1e-3};
 constexpr double least_change =
@@ -107,7 +107,7 @@ std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::leave_corner(c
 // special point continues at one of them, or, if it is at neither, has met the other one.
 std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::to_crossing_corner(const CurveStart& at) {
   const auto crossing =
-      hbm::corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), at_corner);
+      hbm::corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), corners_meeting);
   bool found = false;
   for (const auto& corner : crossing)
     for (const double beside : besides)

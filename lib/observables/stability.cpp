@@ -16,12 +16,11 @@ namespace {
 using Complex = std::complex<double>;
 using continuation::Accepted;
 
-constexpr int most_dofs = 100;
+constexpr int most_dofs_in_full = 100;   // more are replaced by low modes
 constexpr int modes_kept = 50;           // of more
-constexpr double rounding = 1e-11;       // of functions of multipliers, where the structure is undamped
 constexpr double on_circle = 1e-4;       // at a zero; otherwise the multipliers jump
 constexpr double beyond_estimate = 5;    // an error of a multiplier, over its estimate
-constexpr double jump = 1e-5;            // of the largest modulus across 1
+constexpr double modulus_jump = 1e-5;    // of the largest modulus across 1
 constexpr double steep_share = 0.5;      // of a change, not made by the slope beside it: more is a jump
 constexpr std::size_t most_kept = 1000;  // places
 
@@ -65,7 +64,7 @@ bool StabilityAnalysis::prepare(const hbm::HbmProblem& problem, const continuati
   hill_.reset();
   try {
     const auto equation = time::equation_of_motion(model, p);
-    if (equation.dofs() > most_dofs)
+    if (equation.dofs() > most_dofs_in_full)
       go_to_large(model, equation);
     else if (by_hill_)
       hill_.emplace(equation);
@@ -90,7 +89,7 @@ bool StabilityAnalysis::prepare(const hbm::HbmProblem& problem, const continuati
 void StabilityAnalysis::go_to_large(const model::Model& model, const time::EquationOfMotion& equation) {
   if (by_hill_ || !may_leave_modes_out(model, equation))
     throw time::NoVariation("the structure has " + std::to_string(model.dofs) +
-                            " degrees of freedom, and at most " + std::to_string(most_dofs) +
+                            " degrees of freedom, and at most " + std::to_string(most_dofs_in_full) +
                             " are supported by Hill's method, with unsymmetric matrices or with laws that "
                             "are not piecewise linear");
   if (floquet_ && floquet_->has_matrices_of(equation)) {
@@ -130,7 +129,7 @@ namespace {
 
 // Positive where it is rounding, as along an undamped structure.
 double beyond_rounding(double value) {
-  return std::abs(value) < rounding ? rounding : value;
+  return std::abs(value) < multiplier_rounding ? multiplier_rounding : value;
 }
 
 double beside_minus_one(const Multipliers& multipliers) {
@@ -253,7 +252,7 @@ std::vector<continuation::Monitor> stability_monitors(const MultipliersAt& of_pe
                 return margin(all);
               },
               [of_map](const Accepted& now, const Multipliers& all) {
-                if (all.empty() || !(std::abs(1 - std::abs(all.front())) > jump)) return false;
+                if (all.empty() || !(std::abs(1 - std::abs(all.front())) > modulus_jump)) return false;
                 const Multipliers* map = of_map(now);
                 const Places& places = now.scratch.get<Places>();
                 const bool is_one = all.front().imag() == 0 && all.front().real() > 0;  // told by its fold

@@ -1,6 +1,7 @@
 #include <arcslip/observables/stored_energy.hpp>
 
 #include <arcslip/elements/reversals.hpp>
+#include <arcslip/observables/amplitude.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr int laps = 2;  // after which the memory no longer knows where it began
 
 // The memory of a law of one direction at an angle, marched there from the middle of the motion.
@@ -41,7 +41,8 @@ VectorXd marched(const elements::Law& law, elements::Fields fields, const elemen
   };
   for (int lap = 0; lap < laps; ++lap)
     for (std::size_t i = 1; i <= turns.size(); ++i) go_to(turns[i % turns.size()].x);
-  const double from = turns.front().theta, ahead = theta - from - turn * std::floor((theta - from) / turn);
+  const double from = turns.front().theta,
+               ahead = theta - from - turn_angle * std::floor((theta - from) / turn_angle);
   for (std::size_t i = 1; i < turns.size() && turns[i].theta - from < ahead; ++i) go_to(turns[i].x);
   go_to(elements::series_values(h, motion.head(h.size()), theta).x);
   return z;

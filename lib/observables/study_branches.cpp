@@ -10,8 +10,8 @@ namespace arcslip::observables {
 
 namespace {
 
-constexpr double constant = 1e-11;        // relative changes of the amplitude below
-constexpr std::ptrdiff_t neighbours = 2;  // that are looked at, on each side
+constexpr double constant = 1e-11;             // relative changes of the amplitude below
+constexpr std::ptrdiff_t points_per_side = 2;  // that are looked at, on each side
 
 }  // namespace
 
@@ -37,8 +37,8 @@ bool departs(const std::vector<std::pair<double, double>>& course, double arclen
   const auto differs = [&](const auto& point) {
     return std::abs(point.second - amplitude) > constant * std::abs(amplitude);
   };
-  const auto first = after - course.begin() > neighbours ? after - neighbours : course.begin();
-  const auto last = course.end() - after > neighbours ? after + neighbours : course.end();
+  const auto first = after - course.begin() > points_per_side ? after - points_per_side : course.begin();
+  const auto last = course.end() - after > points_per_side ? after + points_per_side : course.end();
   return std::any_of(first, after, differs) && std::any_of(after, last, differs);
 }
 
@@ -104,6 +104,13 @@ Status status_of(StopReason reason) {
     default:
       return Status::failed;
   }
+}
+
+std::string to_digits(double value, int digits) {
+  std::ostringstream s;
+  s.precision(digits);
+  s << value;
+  return s.str();
 }
 
 std::string frequency_text(double omega, scene::FrequencyUnit unit) {

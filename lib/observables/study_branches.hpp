@@ -12,6 +12,12 @@
 
 namespace arcslip::observables {
 
+inline constexpr double same_solution = 1e-6;   // solutions that differ by less, relatively, are one
+inline constexpr double points_in_range = 150;  // at least, from end to end
+inline constexpr double smallest_step = 1e-2;   // of the largest at the low end of the window or the range
+/// |u| over that at the start: beyond, rounding leaves less than 8 digits.
+inline constexpr double resolvable = 1e8;
+
 /// An empty branch of a model: its parameters, harmonics and solver. over: the free parameter, if it is not
 /// the frequency.
 ResponseBranch described(const model::Model& model, const std::string& over = {});
@@ -31,6 +37,9 @@ void add(const continuation::Counts& counts, continuation::Counts& to);
 void add(const SolverSummary& part, SolverSummary& to);  // with its time
 
 Status status_of(continuation::StopReason reason);
+
+/// A number with so many significant digits.
+std::string to_digits(double value, int digits);
 
 /// omega (rad/s) in the scene's unit, with its name.
 std::string frequency_text(double omega, scene::FrequencyUnit unit);

@@ -18,13 +18,12 @@ using continuation::Vector;
 
 constexpr int least_tail = 9;  // orders of the excitation above N looked at: N + 9 at least, 2 N + 9 in all
 constexpr double linear_motion = 1e-13;  // forces left out, relative: below, nothing is neglected
-constexpr double rounding = 1e-13;       // of a second correction, over the amplitude
+constexpr double rounded_off = 1e-13;    // of a second correction, over the amplitude
 constexpr double near_a_fold = 1e-4;     // a step along the branch, relative to |u|: beyond, its bend matters
-constexpr double at_corner = 1e-6;       // |h| over its size
-constexpr double resolved = 0.02;        // change of the harmonics kept with samples, over those left out
+constexpr double within_corner = 1e-6;   // |h| over its size
+constexpr double kept_change = 0.02;     // change of the harmonics kept with samples, over those left out
 constexpr double converging = 0.3;       // second sweep over the first
 constexpr double cancelled = 0.02;       // |dA| over the change of the response
-constexpr double uncancelled = 0.05;     // of the change of the response, or of parts: what remains of them
 constexpr double small_change = 0.1;     // of the response, over its amplitude
 constexpr double tolerance = 1e-6;  // of the response, over its amplitude: below, what cancels is 5e-8 of it
 
@@ -170,7 +169,7 @@ double Truncation::further_change(const continuation::Accepted& now, const Extre
     further.parameter = 0;
   }
   const double change = std::abs(change_of_amplitude(further, now, extreme, held));
-  return change <= rounding * extreme.amplitude ? 0 : change;
+  return change <= rounded_off * extreme.amplitude ? 0 : change;
 }
 
 std::optional<Truncation::Refined> Truncation::refined(const continuation::Accepted& now, Reach reach,
@@ -211,7 +210,7 @@ bool Truncation::samples_too_few() const {
       if (n > 0) size = std::hypot(size, residual_[block + all.sine_index(n)]);
       (n <= kept.order ? change : largest) = std::max(n <= kept.order ? change : largest, size);
     }
-  return change > resolved * largest;
+  return change > kept_change * largest;
 }
 
 // The highest natural frequency; of a large structure it may be a lower one above `reach`.
@@ -371,7 +370,7 @@ Truncation::Shift Truncation::shift_of_extremum(const continuation::Accepted& no
 bool Truncation::to_corner(const continuation::Accepted& now) {
   std::optional<hbm::Corner> corner;
   double least = 0;
-  for (hbm::Corner& each : hbm::corners_near(problem_, now.u, now.p, at_corner)) {
+  for (hbm::Corner& each : hbm::corners_near(problem_, now.u, now.p, within_corner)) {
     const auto excess = hbm::corner_excess(problem_, each, now.u, now.p);
     if (!excess || (corner && !(std::abs(*excess) < least))) continue;
     corner = each;

@@ -39,6 +39,9 @@
 
 namespace arcslip::observables {
 
+/// Where changes cancel: what remains of the change of the response, or of parts.
+inline constexpr double uncancelled = 0.05;
+
 struct TruncationEstimate {
   double amplitude = 0;  // m
   double change = 0;     // dA, m, with its sign

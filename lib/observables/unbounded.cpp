@@ -12,7 +12,7 @@
 namespace arcslip::observables {
 namespace {
 
-constexpr double beside = 1e-9, further_off = 1e-5;  // of omega: where it is looked for a pole
+constexpr double near_pole = 1e-9, off_pole = 1e-5;  // of omega: where it is looked for a pole
 constexpr double grows = 100;                        // between these: less is no pole, whose growth is 1e4
 constexpr double large = 1e6;                        // of that response, as a shape of large amplitude
 constexpr double negligible = 1e-9;  // share of a shape in an element or damper that does not count
@@ -127,10 +127,10 @@ Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::
 Unboundedness unbounded_resonance(const std::shared_ptr<const model::Model>& model, double omega) {
   constexpr double at_rest = 0;  // without modes, which cost more than two evaluations
   const hbm::HbmProblem problem(model, model->harmonics, 1, 1, at_rest);
-  const continuation::Vector p = hbm::parameters_at(problem, omega * (1 + beside));
+  const continuation::Vector p = hbm::parameters_at(problem, omega * (1 + near_pole));
   const continuation::Vector u = hbm::linear_response(problem, p);
   const double off =
-      hbm::linear_response(problem, hbm::parameters_at(problem, omega * (1 + further_off))).norm();
+      hbm::linear_response(problem, hbm::parameters_at(problem, omega * (1 + off_pole))).norm();
   if (!u.allFinite() || !(u.norm() > grows * off)) return {};
   return balance(problem, p, large * u, as_fast);
 }

@@ -16,6 +16,8 @@
 
 namespace arcslip::observables {
 
+inline constexpr double beyond_display = 1e6;  // |u| in scales: larger responses may be unbounded
+
 struct Unboundedness {
   bool unbounded = false;
   double input = 0, dissipation = 0;  // N: per period and unit amplitude, divided by pi

@@ -16,12 +16,12 @@ namespace {
 
 using Factors = Eigen::PartialPivLU<Eigen::MatrixXd>;
 
-constexpr std::size_t reach = 12;    // points beside an event in which its branch point is looked for
-constexpr double absent = 1e-6;      // of a motion: the harmonics that it lacks
-constexpr double same = 1e-7;        // distance of two branch points, relative
-constexpr double resolved = 1e-13;   // of a step, in which the zero lies
-constexpr double continuous = 1e-5;  // of its change over the step: J_XX jumps across zero
-constexpr double singular = 1e-13;   // reciprocal condition where another mode is zero, too
+constexpr std::size_t points_around = 12;   // points beside an event in which its branch point is looked for
+constexpr double absent = 1e-6;             // of a motion: the harmonics that it lacks
+constexpr double same_branch_point = 1e-7;  // distance of two branch points, relative
+constexpr double resolved_step = 1e-13;     // of a step, in which the zero lies
+constexpr double continuous = 1e-5;         // of its change over the step: J_XX jumps across zero
+constexpr double singular = 1e-13;          // reciprocal condition where another mode is zero, too
 constexpr int bisections = 12;
 constexpr int sweeps = 4;  // of inverse iteration
 
@@ -31,8 +31,8 @@ constexpr double entry_error = 0.25;  // of the distance to other half-branches
 constexpr double entry_turn = 0.3;    // of the angle to them
 
 // The model with harmonics; samples are those of the period of the motion.
-std::shared_ptr<const model::Model> in_harmonics(const model::Model& model,
-                                                 const elements::Harmonics& harmonics) {
+std::shared_ptr<const model::Model> model_in_harmonics(const model::Model& model,
+                                                       const elements::Harmonics& harmonics) {
   model::Model other = model;
   other.settings.samples = model.settings.samples / model.harmonics.period * harmonics.period;
   other.settings.order = harmonics.order;
@@ -81,7 +81,7 @@ elements::Harmonics without(const elements::Harmonics& harmonics, Lost symmetry)
 
 std::shared_ptr<const hbm::HbmProblem> in_harmonics(const hbm::HbmProblem& problem,
                                                     const elements::Harmonics& harmonics, double about) {
-  return std::make_shared<const hbm::HbmProblem>(in_harmonics(problem.model(), harmonics), harmonics,
+  return std::make_shared<const hbm::HbmProblem>(model_in_harmonics(problem.model(), harmonics), harmonics,
                                                  problem.displacement(),
                                                  problem.parameters()[model::frequency].scale, about);
 }
@@ -132,12 +132,12 @@ std::optional<HalfBranch> WiderBranchPoints::locate(const std::vector<Vector>& b
     if (i + 1 >= branch.size() || sign(i) * sign(i + 1) >= 0) return {};
     auto found = refine(branch[i], branch[i + 1], why);
     if (!found) return {};
-    const auto is_it = [&](const Vector& x) { return (x - found->x).norm() <= same * x.norm(); };
+    const auto is_it = [&](const Vector& x) { return (x - found->x).norm() <= same_branch_point * x.norm(); };
     if (std::any_of(found_.begin(), found_.end(), is_it)) return {};
     found_.push_back(found->x);
     return found;
   };
-  for (std::size_t d = 0; d <= reach; ++d) {
+  for (std::size_t d = 0; d <= points_around; ++d) {
     if (auto found = in_step(after + d)) return found;
     if (d == 0 || d > after) continue;
     if (auto found = in_step(after - d)) return found;
@@ -171,7 +171,7 @@ std::optional<HalfBranch> WiderBranchPoints::refine(const Vector& from, const Ve
     smallest(Factors(J_), left, right);
     const double at_a = value(a), at_b = value(b);
     if (at_a * at_b < 0) {
-      const auto root = continuation::find_root(value, a, at_a, b, at_b, resolved);
+      const auto root = continuation::find_root(value, a, at_a, b, at_b, resolved_step);
       const double least = std::min(std::abs(root.f_lower), std::abs(root.f_upper));
       if (least <= continuous * std::max(std::abs(at_a), std::abs(at_b)) && place(root.x)) {
         smallest(Factors(J_), left, right);

@@ -11,7 +11,7 @@
 
 namespace arcslip::output {
 
-std::string quoted(const std::string& text) {
+std::string single_quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : results::visible(text))
     if (c == '\'')
@@ -116,7 +116,8 @@ Axis axis_of(const results::FigureColumn& column, bool has_room, bool has_minima
 
 void write_axis(std::ostream& out, char name, const std::string& label, const Axis& axis) {
   out << (axis.logarithmic ? "set logscale " : "unset logscale ") << name
-      << (axis.logarithmic ? " 10\n" : "\n") << "set " << name << "label " << quoted(label) << " noenhanced\n"
+      << (axis.logarithmic ? " 10\n" : "\n") << "set " << name << "label " << single_quoted(label)
+      << " noenhanced\n"
       << "set " << name << "range [" << rounded(axis.range.lower) << ":" << rounded(axis.range.upper)
       << "]\n";
   if (axis.logarithmic)

@@ -11,7 +11,7 @@ namespace arcslip::output {
 
 /// A text in single quotes for gnuplot. Characters that are invalid in XML or unsafe for a terminal are
 /// escaped (results/text.hpp).
-std::string quoted(const std::string& text);
+std::string single_quoted(const std::string& text);
 
 /// The first `longest` characters (UTF-8) of a text, followed by " ..." if it is longer.
 std::string shortened(const std::string& text, int longest);

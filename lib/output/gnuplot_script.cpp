@@ -110,7 +110,7 @@ void write_labels(std::ostream& out, const FigureData& data, const Figure& figur
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (sides[i] == LabelSide::none) continue;
     const LabelOffset shift = offset(sides[i]);
-    out << "set label " << quoted(wishes[i].text) << " at " << shortest(labels[i].x) << ","
+    out << "set label " << single_quoted(wishes[i].text) << " at " << shortest(labels[i].x) << ","
         << shortest(labels[i].y)
         << (shift.alignment == 0 ? " center" : (shift.alignment > 0 ? " left" : " right")) << " offset "
         << shortest(shift.x) << "," << shortest(shift.y) << " front noenhanced font ',13' textcolor rgb '"
@@ -144,7 +144,7 @@ void write_key_title(std::ostream& out, const FigureData& data) {
   out << "set key title ";
   const char* separator = "";
   for (const std::string& name : data.parameters) {
-    out << separator << quoted(name);
+    out << separator << single_quoted(name);
     separator = ".\"\\n\".";
     longest_name = std::max(longest_name, name.size());
   }
@@ -211,7 +211,7 @@ void write_areas(std::ostream& out, const Figure& figure, int first) {
     const auto kind = std::find(results::area_kinds.begin(), results::area_kinds.end(), area.kind);
     const auto rank = static_cast<std::size_t>(kind - results::area_kinds.begin());
     out << separator << "data index " << first++ << " using 1:2:3 with filledcurves fillcolor rgb '"
-        << area_colours.at(rank) << "' fillstyle solid 1 noborder title " << quoted(area.kind)
+        << area_colours.at(rank) << "' fillstyle solid 1 noborder title " << single_quoted(area.kind)
         << " noenhanced";
     separator = ", \\\n     ";
   }
@@ -226,7 +226,7 @@ void add_bands_to_key(const FigureData& data, std::vector<std::string>& curves) 
   const std::string colour = data.lines.size() == 1 ? line_colour(0, 1) : other_colour;
   for (std::size_t k = line->bands.size(); k-- > 0;) {
     curves.push_back("NaN with filledcurves " + band_style(k, colour) + " title " +
-                     quoted(line->bands[k].label) + " noenhanced");
+                     single_quoted(line->bands[k].label) + " noenhanced");
   }
 }
 
@@ -251,7 +251,8 @@ void write_plot(std::ostream& out, const FigureData& data, const Figure& figure)
       const std::string dash = unstable ? "(8,5)" : with_stability ? "1" : line_dash(i);
       curves.push_back(
           "data index " + std::to_string(index++) + columns + " with lines linewidth 2 dashtype " + dash +
-          paint + (std::exchange(titled, true) ? " notitle" : " title " + quoted(title) + " noenhanced"));
+          paint +
+          (std::exchange(titled, true) ? " notitle" : " title " + single_quoted(title) + " noenhanced"));
     }
     for (std::size_t k = 0; k < mark_kinds.size(); ++k) {
       if (has_mark(line, mark_kinds[k])) {
@@ -344,7 +345,7 @@ void write_gnuplot_script(std::ostream& out, const FigureData& data, const std::
       << "if (!exists('suffix')) suffix = ''\n"
       << "data = '" << name << ".dat'\n"
       << "set encoding utf8\n"
-      << "set title " << quoted(shortened(data.title, longest_title)) << " noenhanced font ',16'\n"
+      << "set title " << single_quoted(shortened(data.title, longest_title)) << " noenhanced font ',16'\n"
       << "set border 3 back linewidth 1 linecolor rgb '#333333'\n"
       << "set tics nomirror out scale 0.8,0.4\n"
       << "set grid xtics ytics back linetype 1 linewidth 0.5 linecolor rgb '#dddddd'\n"

@@ -47,7 +47,7 @@ Object object(std::span<const Column> columns, const Rows& rows, std::size_t row
 namespace {
 
 // Appends rows of the same columns.
-void append(const Rows& more, Rows& all) {
+void append_rows(const Rows& more, Rows& all) {
   for (std::size_t c = 0; c < all.columns.size(); ++c) {
     Cells& to = all.columns[c];
     const Cells& from = more.columns[c];
@@ -100,7 +100,7 @@ void Collector::rows(std::size_t table, const Rows& rows) {
   if (all.count == 0)
     all = rows;
   else
-    append(rows, all);
+    append_rows(rows, all);
 }
 
 void Collector::end(const End& end) {

@@ -175,7 +175,7 @@ std::string listed(std::span<const std::string> words) {
 std::string hint(std::string_view word, std::span<const std::string> known) {
   constexpr std::size_t most = 10'000;  // a search for each of many faults must not take minutes
   const std::string near = known.size() <= most ? nearest(word, known) : "";
-  return near.empty() ? "" : "; did you mean " + quoted(near) + "?";
+  return near.empty() ? "" : "; did you mean " + file::quoted(near) + "?";
 }
 
 bool within(const Field& field, double value) {
@@ -205,7 +205,7 @@ namespace {
 
 constexpr std::size_t longest_word = 128;  // longer words are no typing errors
 
-char lower_case(char c) {
+char lower_case_letter(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
@@ -217,10 +217,10 @@ std::size_t distance(std::string_view a, std::string_view b) {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const bool same = lower_case(a[i - 1]) == lower_case(b[j - 1]);
+      const bool same = lower_case_letter(a[i - 1]) == lower_case_letter(b[j - 1]);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0u : 1u)});
-      if (i > 1 && j > 1 && lower_case(a[i - 1]) == lower_case(b[j - 2]) &&
-          lower_case(a[i - 2]) == lower_case(b[j - 1]))
+      if (i > 1 && j > 1 && lower_case_letter(a[i - 1]) == lower_case_letter(b[j - 2]) &&
+          lower_case_letter(a[i - 2]) == lower_case_letter(b[j - 1]))
         row[j] = std::min(row[j], before[j - 2] + 1);
     }
     std::swap(before, last);

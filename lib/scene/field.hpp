@@ -1,10 +1,13 @@
 #pragma once
 // A scalar of a part of the scene.
 
+#include <limits>
 #include <optional>
 #include <string_view>
 
 namespace arcslip::scene {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();  // as a bound: none
 
 /// One scalar of a part. It is a parameter of the scene under the name "part.field".
 struct Field {

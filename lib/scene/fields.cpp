@@ -9,8 +9,6 @@
 namespace arcslip::scene {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 constexpr Field mass_fields[] = {
     {.name = "value", .unit = "kg", .lower = 0, .upper = infinity, .help = "mass"},
 };

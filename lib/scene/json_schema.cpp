@@ -52,14 +52,14 @@ void add_bounds(double lower, bool lower_open, double upper, Object& number) {
   if (std::isfinite(upper)) number.push_back({"maximum", node(upper)});
 }
 
-std::string with_unit(std::string_view text, std::string_view unit) {
+std::string text_with_unit(std::string_view text, std::string_view unit) {
   std::string all(text);
   if (!unit.empty() && unit != "-") all.append(" (").append(unit).append(")");
   return all;
 }
 
-Node number_of(const Field& field) {
-  Object number{{"type", node("number")}, {"description", node(with_unit(field.help, field.unit))}};
+Node number_schema(const Field& field) {
+  Object number{{"type", node("number")}, {"description", node(text_with_unit(field.help, field.unit))}};
   add_bounds(field.lower, field.lower_open, field.upper, number);
   if (field.default_value) number.push_back({"default", node(*field.default_value)});
   return of(std::move(number));
@@ -214,7 +214,7 @@ Node described_key(const Key& key) {
   const std::string unit = key.unit == "frequency"   ? "the scene's unit"
                            : key.unit == "parameter" ? "the parameter's unit"
                                                      : key.unit;
-  value.push_back({"description", node(with_unit(key.help, unit))});
+  value.push_back({"description", node(text_with_unit(key.help, unit))});
   if (!key.otherwise.empty()) value.push_back({"default", read_tree(key.otherwise)});
   return of(std::move(value));
 }
@@ -252,14 +252,14 @@ Node part_of(const PartType& type, bool with_type) {
                                   "each is delayed")}})});
   }
   for (const Field& field : type.fields({})) {
-    properties.push_back({std::string(field.name), or_each(number_of(field))});
+    properties.push_back({std::string(field.name), or_each(number_schema(field))});
     if (!field.default_value && !type.options_bring_fields())  // in its place
       required.emplace_back(field.name);
   }
   const auto dampings = damping_types();
   const bool of_structure = std::find(dampings.begin(), dampings.end(), &type) != dampings.end();
   if (with_type && !of_structure)
-    properties.push_back({std::string(wear_coefficient.name), number_of(wear_coefficient)});
+    properties.push_back({std::string(wear_coefficient.name), number_schema(wear_coefficient)});
   Object object = object_of(std::move(properties), required);
   if (type.names_directions() && !of_structure)
     object.back().value = place_object();
@@ -313,7 +313,7 @@ Node patch() {
        {"law", of_type("string")},
        {"file", of({{"type", node("string")}, {"description", node("the path of a CSV file of contacts")}})},
        {"details", of({{"type", node("boolean")}, {"default", {true}}})},
-       {std::string(wear_coefficient.name), number_of(wear_coefficient)}},
+       {std::string(wear_coefficient.name), number_schema(wear_coefficient)}},
       {"name", "law", "file"});
   object.pop_back();  // other keys are fields and options of the law
   return of(std::move(object));

@@ -22,9 +22,8 @@
 namespace arcslip::scene {
 namespace {
 
-using file::listed, file::quoted;
+using file::listed;
 
-constexpr std::size_t largest_size = 100'000'000;                 // rows or columns
 constexpr std::size_t largest_full = (std::size_t{4} << 30) / 8;  // entries
 constexpr std::size_t most_variables = 10'000;
 constexpr std::size_t most_compressed = 1100;  // bytes of data in one of the file: zlib's limit is 1032
@@ -72,10 +71,10 @@ std::string name_of(matio_classes type) {
   return k < names.size() ? names[k] : "an array of an unknown type";
 }
 
-class Reader {
+class MatFileReader {
  public:
-  Reader(const std::string& path, std::string_view text, const std::string& name, const std::string& told,
-         const StopRequest& stop)
+  MatFileReader(const std::string& path, std::string_view text, const std::string& name,
+                const std::string& told, const StopRequest& stop)
       : path_(path), text_(text), name_(name), told_(told), stop_(stop) {}
 
   SparseMatrix read() {
@@ -87,7 +86,7 @@ class Reader {
     const File file(Mat_Open(path_.c_str(), MAT_ACC_RDONLY));
     if (!file) fail("found no MATLAB file of version 5 or 7.3 that can be read; it may be damaged");
     const Variable variable = find(file.get());
-    told_ += ", variable " + quoted(variable->name);
+    told_ += ", variable " + file::quoted(variable->name);
     check_type(*variable);
     if (is_version_73(text_) && variable->class_type == MAT_C_SPARSE) check_size(variable->name);
     listen();
@@ -148,7 +147,7 @@ class Reader {
     if (names.empty()) fail("found no variable; the file may be damaged");
     std::sort(names.begin(), names.end());
     if (!name_.empty())
-      fail("found no variable " + quoted(name_) + ", must be " + (names.size() > 1 ? "one of " : "") +
+      fail("found no variable " + file::quoted(name_) + ", must be " + (names.size() > 1 ? "one of " : "") +
            listed(names) + file::hint(name_, names));
     if (names.size() > 1)
       fail("found the variables " + listed(names) +
@@ -164,8 +163,8 @@ class Reader {
     if (of.isLogical != 0) fail("found a logical matrix" + must);
     if (of.rank != 2 || of.dims == nullptr)
       fail("found an array of " + std::to_string(of.rank) + " dimensions" + must);
-    if (std::max(of.dims[0], of.dims[1]) > largest_size)
-      fail("found " + size(of) + ", must have at most " + std::to_string(largest_size) + " of each");
+    if (std::max(of.dims[0], of.dims[1]) > largest_matrix_size)
+      fail("found " + size(of) + ", must have at most " + std::to_string(largest_matrix_size) + " of each");
     if (of.class_type == MAT_C_DOUBLE && of.dims[1] > 0 && of.dims[0] > largest_full / of.dims[1])
       fail("found a full matrix with " + size(of) + ", must be sparse where it takes more than 4 GB");
     if (of.class_type == MAT_C_DOUBLE && of.dims[0] * of.dims[1] / most_compressed > text_.size() / 8)
@@ -284,7 +283,7 @@ bool is_mat_file(std::string_view path, std::string_view text) {
 
 SparseMatrix read_mat_file(const std::string& path, std::string_view text, const std::string& variable,
                            const std::string& file, const StopRequest& stop) {
-  return Reader(path, text, variable, file, stop).read();
+  return MatFileReader(path, text, variable, file, stop).read();
 }
 
 }  // namespace arcslip::scene

@@ -14,7 +14,6 @@
 namespace arcslip::scene {
 namespace {
 
-constexpr long long largest_size = 100'000'000;  // rows or columns
 constexpr std::size_t lines_per_question = 1 << 16;
 
 enum class Symmetry { general, symmetric, skew };
@@ -26,7 +25,7 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-std::string shown(std::string_view text) {
+std::string shown_word(std::string_view text) {
   std::string plain;
   for (const char c : text.substr(0, 40)) plain += c >= 0x20 && c < 0x7f ? c : '?';
   return '"' + plain + (text.size() > 40 ? "...\"" : "\"");
@@ -54,9 +53,9 @@ std::optional<double> real(std::string_view word) {
   return value;
 }
 
-class Reader {
+class MatrixMarketReader {
  public:
-  Reader(std::string_view text, const std::string& file, const StopRequest& stop)
+  MatrixMarketReader(std::string_view text, const std::string& file, const StopRequest& stop)
       : text_(text), file_(file), stop_(stop) {}
 
   SparseMatrix read() {
@@ -66,7 +65,7 @@ class Reader {
       read_coordinates(sizes[2]);
     else
       read_array();
-    if (next_words()) fail("found " + shown(words_[0]) + " after the last entry");
+    if (next_words()) fail("found " + shown_word(words_[0]) + " after the last entry");
     const std::size_t given = entries_.size();
     for (std::size_t k = 0; k < given && symmetry_ != Symmetry::general; ++k)
       if (const MatrixEntry entry = entries_[k]; entry.row != entry.column)
@@ -123,11 +122,11 @@ class Reader {
           "found no Matrix Market header, must begin as in \"%%MatrixMarket matrix coordinate real "
           "symmetric\"");
     if (words[2] != "coordinate" && words[2] != "array")
-      fail("found the format " + shown(words[2]) + R"(, must be "coordinate" or "array")");
+      fail("found the format " + shown_word(words[2]) + R"(, must be "coordinate" or "array")");
     if (words[3] != "real" && words[3] != "integer" && words[3] != "double")
-      fail("found values that are " + shown(words[3]) + R"(, must be "real" or "integer")");
+      fail("found values that are " + shown_word(words[3]) + R"(, must be "real" or "integer")");
     if (words[4] != "general" && words[4] != "symmetric" && words[4] != "skew-symmetric")
-      fail("found the symmetry " + shown(words[4]) +
+      fail("found the symmetry " + shown_word(words[4]) +
            R"(, must be "general", "symmetric" or "skew-symmetric")");
     coordinate_ = words[2] == "coordinate";
     symmetry_ = words[4] == "general"     ? Symmetry::general
@@ -143,7 +142,7 @@ class Reader {
       if (const auto size = integer(word); size && *size >= 0 && *size <= most(sizes.size()))
         sizes.push_back(*size);
     if (sizes.size() != words_.size() || sizes.size() != (coordinate_ ? 3u : 2u))
-      fail("found " + shown(line_of_words()) + ", must be the numbers of " + wanted);
+      fail("found " + shown_word(line_of_words()) + ", must be the numbers of " + wanted);
     rows_ = static_cast<int>(sizes[0]);
     columns_ = static_cast<int>(sizes[1]);
     if (symmetry_ != Symmetry::general && rows_ != columns_)
@@ -152,7 +151,7 @@ class Reader {
     return sizes;
   }
   static long long most(std::size_t which) {
-    return which < 2 ? largest_size : std::numeric_limits<long long>::max();
+    return which < 2 ? static_cast<long long>(largest_matrix_size) : std::numeric_limits<long long>::max();
   }
   std::string line_of_words() const {
     std::string line;
@@ -162,15 +161,16 @@ class Reader {
 
   double value_of(std::string_view word) const {
     const auto value = real(word);
-    if (!value) fail("found " + shown(word) + ", must be a number");
-    if (!std::isfinite(*value)) fail("found " + shown(word) + ", must be a finite number");
+    if (!value) fail("found " + shown_word(word) + ", must be a number");
+    if (!std::isfinite(*value)) fail("found " + shown_word(word) + ", must be a finite number");
     return *value;
   }
 
   int index_of(std::string_view word, long long size, const char* what) const {
     const auto index = integer(word);
     if (!index || *index < 1 || *index > size)
-      fail("found the " + std::string(what) + " " + shown(word) + ", must be 1 to " + std::to_string(size));
+      fail("found the " + std::string(what) + " " + shown_word(word) + ", must be 1 to " +
+           std::to_string(size));
     return static_cast<int>(*index - 1);
   }
 
@@ -181,7 +181,8 @@ class Reader {
     for (long long k = 0; k < count; ++k) {
       if (!next_words())
         fail("the file ends after " + std::to_string(k) + " of " + std::to_string(count) + " entries");
-      if (words_.size() != 3) fail("found " + shown(line_of_words()) + ", must be row, column and value");
+      if (words_.size() != 3)
+        fail("found " + shown_word(line_of_words()) + ", must be row, column and value");
       add(index_of(words_[0], rows_, "row"), index_of(words_[1], columns_, "column"), value_of(words_[2]));
     }
   }
@@ -229,7 +230,7 @@ class Reader {
         if (value != 0) entries_.push_back({i, j, value});
       }
     }
-    if (word < words_.size()) fail("found " + shown(words_[word]) + " after the last entry");
+    if (word < words_.size()) fail("found " + shown_word(words_[word]) + " after the last entry");
   }
 
   std::string_view text_;
@@ -247,7 +248,7 @@ class Reader {
 }  // namespace
 
 SparseMatrix read_matrix_market(std::string_view text, const std::string& file, const StopRequest& stop) {
-  return Reader(text, file, stop).read();
+  return MatrixMarketReader(text, file, stop).read();
 }
 
 }  // namespace arcslip::scene

@@ -14,11 +14,14 @@
 #include <arcslip/scene/sparse_matrix.hpp>
 #include <arcslip/scene/stop_request.hpp>
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace arcslip::scene {
+
+inline constexpr std::size_t largest_matrix_size = 100'000'000;  // rows or columns in a file
 
 /// A file that does not hold the matrix that it should: what() names file, line and cause.
 class MatrixError : public std::runtime_error {

@@ -32,7 +32,7 @@ Numbers numbers_in(Node& scene) {
   return all;
 }
 
-Node list_of(const std::vector<double>& values) {
+Node number_list(const std::vector<double>& values) {
   Node::List list(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) list[i].value = values[i];
   return {std::move(list)};
@@ -68,7 +68,7 @@ void mistune(Node& scene, int sectors, Faults& faults) {
                                  ", must be one of the numbers of the sector's parts " + listed(known) +
                                  hint(parameter, known));
     } else if (factors && of_matrices) {
-      files->push_back({"stiffness_factors", list_of(*factors)});
+      files->push_back({"stiffness_factors", number_list(*factors)});
     } else if (factors) {
       const double common = *found->second->get<double>();
       std::vector<double> values;
@@ -78,7 +78,7 @@ void mistune(Node& scene, int sectors, Faults& faults) {
           faults.add(child(at.pointer, values.size() - 1),
                      "found " + number_text(factor) + ", with which the value is too large for a number");
       }
-      found->second->value = Node::Object{{"each", list_of(values)}};
+      found->second->value = Node::Object{{"each", number_list(values)}};
     }
   }
 }

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace arcslip::scene::file {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The sum of weight^2 value of the parts that act on a degree of freedom alone.
 double sum_on(int dof, const std::vector<Part>& parts) {

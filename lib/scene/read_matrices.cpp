@@ -19,7 +19,7 @@ enum class Form { symmetric, skew, general };
 
 constexpr const char* unsymmetric_wanted = "a list of at least one of \"stiffness\", \"damping\"";
 
-std::string place(int row, int column) {
+std::string entry_place(int row, int column) {
   return "row " + std::to_string(row + 1) + ", column " + std::to_string(column + 1);
 }
 
@@ -164,7 +164,7 @@ class Files {
         const int i = A.row_of[static_cast<std::size_t>(k)];
         const double value = A.values[static_cast<std::size_t>(k)];
         if (i == j && value < 0 && semidefinite)
-          negative.add([&] { return number_text(value) + " in " + place(i, j); });
+          negative.add([&] { return number_text(value) + " in " + entry_place(i, j); });
         if (i == j || value == 0 || form == Form::general) continue;
         const double other = value_at(A, j, i);
         if (i < j && other != 0) continue;  // compared from there
@@ -173,8 +173,8 @@ class Files {
         const double scale = std::max({std::abs(value), std::abs(other), diagonal});
         if (std::abs(value - other) <= agreeing * scale) continue;
         asymmetric.add([&] {
-          return number_text(value) + " in " + place(i, j) + " and " + number_text(other) + " in " +
-                 place(j, i);
+          return number_text(value) + " in " + entry_place(i, j) + " and " + number_text(other) + " in " +
+                 entry_place(j, i);
         });
       }
     if (negative.any())
@@ -196,15 +196,15 @@ class Files {
         const double value = A.values[k];
         if (i == j) {
           if (std::abs(value) > agreeing * largest)
-            wrong.add([&] { return number_text(value) + " in " + place(i, j); });
+            wrong.add([&] { return number_text(value) + " in " + entry_place(i, j); });
           continue;
         }
         const double other = value_at(A, j, i);
         if (value == 0 || (i < j && other != 0)) continue;  // compared from there
         if (std::abs(value + other) <= agreeing * std::max(std::abs(value), std::abs(other))) continue;
         wrong.add([&] {
-          return number_text(value) + " in " + place(i, j) + " and " + number_text(other) + " in " +
-                 place(j, i);
+          return number_text(value) + " in " + entry_place(i, j) + " and " + number_text(other) + " in " +
+                 entry_place(j, i);
         });
       }
     }
@@ -227,8 +227,8 @@ class Files {
         if (!skew || (value_at(M, i, i) > 0 && value_at(M, j, j) > 0)) continue;
         const int row = value_at(M, i, i) > 0 ? j : i;
         without.add([&] {
-          return number_text(value) + " in " + place(i, j) + ", where the mass matrix has " +
-                 number_text(value_at(M, row, row)) + " in " + place(row, row);
+          return number_text(value) + " in " + entry_place(i, j) + ", where the mass matrix has " +
+                 number_text(value_at(M, row, row)) + " in " + entry_place(row, row);
         });
       }
     if (without.any())

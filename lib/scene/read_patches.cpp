@@ -29,7 +29,7 @@ constexpr Field gap_field{.name = "gap",
 constexpr Field pressure_field{
     .name = "pressure", .unit = "Pa", .lower = 0, .upper = std::numeric_limits<double>::infinity()};
 
-std::optional<double> number_of(std::string_view text) {
+std::optional<double> parsed_number(std::string_view text) {
   double value = 0;
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
@@ -38,10 +38,10 @@ std::optional<double> number_of(std::string_view text) {
 }
 
 // The rows of one file. Faults are at the key of the file, and say the line.
-class Rows {
+class PatchRows {
  public:
-  Rows(const PatchOptions& patch, const std::string& name, const Dofs& dofs, std::string pointer,
-       Faults& faults)
+  PatchRows(const PatchOptions& patch, const std::string& name, const Dofs& dofs, std::string pointer,
+            Faults& faults)
       : patch_(patch), name_(name), dofs_(dofs), pointer_(std::move(pointer)), faults_(faults) {
     const auto slots = patch.law->slots_with(patch.law_options);
     places_.assign(slots.begin(), slots.end());
@@ -124,7 +124,7 @@ class Rows {
   double number(const std::vector<std::string_view>& cells, const Field& field) {
     const auto text = cell(cells, field.name);
     if (!text) return 0;
-    const auto value = number_of(*text);
+    const auto value = parsed_number(*text);
     if (!value || !within(field, *value))
       fault("found the " + std::string(field.name) + " " + shown(*text) + ", must be a number, " +
             allowed_text(field));
@@ -171,7 +171,7 @@ class Rows {
     std::string name(word);
     auto found = dofs_.index.find(name);
     if (const auto star = word.find('*'); found == dofs_.index.end() && star != std::string_view::npos)
-      if (const auto factor = number_of(word.substr(0, star))) {
+      if (const auto factor = parsed_number(word.substr(0, star))) {
         weight *= *factor;
         name = word.substr(star + 1);
         found = dofs_.index.find(name);
@@ -222,7 +222,7 @@ const PartType* read_law(const Keys& keys, std::span<const PartType* const> laws
   return nullptr;
 }
 
-void read_values(const Keys& keys, Part& patch, Faults& faults) {
+void read_patch_values(const Keys& keys, Part& patch, Faults& faults) {
   for (const Field& field : patch.fields()) {
     const Location value =
         field.default_value ? keys.find(field.name) : keys.require(field.name, allowed_text(field), faults);
@@ -273,10 +273,10 @@ Part read_patch(const Location& place, std::span<const PartType* const> laws, co
   patch.options = Settings::of(options);
   if (named) names.set_fields(patch.name, patch.options.as<PatchOptions>().fields);
   const std::size_t before = faults.count();
-  read_values(keys, patch, faults);
+  read_patch_values(keys, patch, faults);
   if (!options.file.text) return patch;
   auto& own = patch.options.as<PatchOptions>();
-  Rows rows(own, patch.name, dofs, file.pointer, faults);
+  PatchRows rows(own, patch.name, dofs, file.pointer, faults);
   own.rows = rows.read(*options.file.text);
   if (faults.count() == before)
     for (std::size_t i = 0; i < own.rows.size(); ++i) rows.check(i, patch_element(patch, own.rows[i]));

@@ -16,7 +16,7 @@
 namespace arcslip::scene::file {
 namespace {
 
-constexpr const char* place = "/structure/cyclic";
+constexpr const char* cyclic_place = "/structure/cyclic";
 constexpr std::string_view index_name = "sector";
 
 bool read_full(const Location& full, Faults& faults) {
@@ -262,15 +262,15 @@ Ring write_out_ring(Node& scene, const FileSource& source, Origins& origins, Fau
   Node* cyclic = find(structure, "cyclic");
   Faults told_later;
   if (!read_full({find(cyclic, "full"), {}}, told_later)) return {};
-  const Keys keys({cyclic, place}, {"sectors", "engine_order", "full", "mistuning"}, faults);
+  const Keys keys({cyclic, cyclic_place}, {"sectors", "engine_order", "full", "mistuning"}, faults);
   const auto of = read_numbers(keys, faults);
   for (const char* key : {"beam", "rod"})
     if (find(structure, key) != nullptr)
-      faults.add(child(place, "full"),
+      faults.add(child(cyclic_place, "full"),
                  "found true beside " + quoted(key) +
                      ", must be false, or the sector must be of masses and springs, or of matrices");
   if (find(&scene, "patches") != nullptr)
-    faults.add(child(place, "full"),
+    faults.add(child(cyclic_place, "full"),
                "found true beside \"patches\", must be false, or the contacts must be elements");
   refuse_copies(scene, faults);
   if (!of) return {};

@@ -4,8 +4,6 @@
 namespace arcslip::scene {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 constexpr Field speed{
     .name = "speed", .unit = "rad/s", .lower = 0, .upper = infinity, .help = "speed of rotation"};
 constexpr Field any_speed[] = {speed};

@@ -8,8 +8,6 @@
 namespace arcslip::scene {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 constexpr Field force_fields[] = {
     {.name = "cosine",
      .unit = "N",

@@ -26,8 +26,8 @@ Field common(const std::vector<const Field*>& fields) {
 }
 
 // {"from": 1, "to": 100, "count": 21, "spacing": "logarithmic"}
-std::vector<double> read_range(const Location& place, const std::vector<const Field*>& fields,
-                               Faults& faults) {
+std::vector<double> read_spaced_values(const Location& place, const std::vector<const Field*>& fields,
+                                       Faults& faults) {
   const std::size_t before = faults.count();
   const Field bounds = fields.empty() || fields.front() == nullptr ? any_number : common(fields);
   const Keys keys(place, {"from", "to", "count", "spacing"}, faults);
@@ -60,11 +60,11 @@ std::vector<double> read_range(const Location& place, const std::vector<const Fi
   return values;
 }
 
-std::vector<double> read_values(const Location& place, const std::vector<const Field*>& fields,
-                                Faults& faults) {
+std::vector<double> read_value_list(const Location& place, const std::vector<const Field*>& fields,
+                                    Faults& faults) {
   constexpr std::string_view wanted = "a list of at least one number";
   if (place.node != nullptr && place.node->get<Node::Object>() != nullptr)
-    return read_range(place, fields, faults);
+    return read_spaced_values(place, fields, faults);
   std::vector<double> values;
   const Node::List* list = read_list(place, wanted, faults);
   if (list != nullptr && list->empty())
@@ -173,7 +173,7 @@ ValueLists read_value_lists(const Location& place, const Parameters& all, const 
     const Location item{&member->value, child(place.pointer, member->key)};
     const auto fields = fields_of(member->key, item.pointer, all, faults);
     if (fields.empty() || !is_taken(member->key, item.pointer, taken, faults))
-      lists.emplace_back(member->key, read_values(item, fields, faults));
+      lists.emplace_back(member->key, read_value_list(item, fields, faults));
   }
   return lists;
 }
@@ -181,9 +181,9 @@ ValueLists read_value_lists(const Location& place, const Parameters& all, const 
 namespace {
 
 // The values of one row, in the order of the first.
-class Rows {
+class ParameterRows {
  public:
-  Rows(const Parameters& all, const std::vector<Taken>& taken, Faults& faults)
+  ParameterRows(const Parameters& all, const std::vector<Taken>& taken, Faults& faults)
       : all_(all), taken_(taken), faults_(faults) {}
 
   void read_first(const Location& place) {
@@ -249,7 +249,7 @@ void read_for_each(const Location& place, const Parameters& all, const std::vect
   if (list->empty())
     faults.add(place.pointer,
                "found an empty list, must be a list of at least one row {\"part.field\": value}");
-  Rows rows(all, taken, faults);
+  ParameterRows rows(all, taken, faults);
   for (std::size_t i = 0; i < list->size(); ++i) {
     const Location row{&(*list)[i], child(place.pointer, i)};
     i == 0 ? rows.read_first(row) : rows.read(row);

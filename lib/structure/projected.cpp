@@ -79,7 +79,7 @@ MatrixXcd interior(const Projected& P, double stiffening, Index count, Complex p
 }
 
 // With one stiffening.
-double change(const Projected& P, double stiffening, double sigma, double highest, Index first) {
+double change_of_stiffened(const Projected& P, double stiffening, double sigma, double highest, Index first) {
   const bool damped = P.C_c.size() > 0 || !P.skew.empty();
   const Index all = P.M_zz.rows(), b = P.A_c.rows();
   const Modes before = modes(P, stiffening, damped ? 0 : first), now = modes(P, stiffening, damped ? 0 : all);
@@ -115,7 +115,7 @@ double change(const Projected& P, double stiffening, double sigma, double highes
 double change(const Projected& P, double sigma, double highest, Index first) {
   double largest = 0;
   for (const double stiffening : P.stiffening) {
-    const double found = change(P, stiffening, sigma, highest, first);
+    const double found = change_of_stiffened(P, stiffening, sigma, highest, first);
     if (!(found <= largest)) largest = found;
     if (std::isnan(largest)) break;
   }

@@ -24,7 +24,7 @@ using observables::Way;
 constexpr int highest_order = 999;
 constexpr double rounding = 1e-16;  // the least error that is drawn
 
-scene::file::KeysOf<AccuracySettings> keys() {
+scene::file::KeysOf<AccuracySettings> keys_of_accuracy() {
   scene::file::KeysOf<AccuracySettings> keys;
   keys.add(scene::file::frequency_range(&AccuracySettings::from, &AccuracySettings::to));
   keys.add(scene::file::whole(
@@ -65,7 +65,8 @@ results::TableOf<Trial> table(const scene::Scene& scene) {
   return trials;
 }
 
-Described<Accuracy> described(const scene::Scene& scene, const AccuracySettings&, const scene::RunOptions&) {
+Described<Accuracy> described_accuracy(const scene::Scene& scene, const AccuracySettings&,
+                                       const scene::RunOptions&) {
   const auto trials = std::make_shared<const results::TableOf<Trial>>(table(scene));
   results::Schema schema{.format = "arcslip-accuracy-1",
                          .list = "comparisons",
@@ -112,7 +113,7 @@ std::string series(const Trial& trial) {
 }
 
 // A line for each method, through its trials in the order of their times; the best ones are marked.
-std::vector<results::FigureData> figures(const scene::Scene& scene, std::span<const Accuracy> all) {
+std::vector<results::FigureData> accuracy_figures(const scene::Scene& scene, std::span<const Accuracy> all) {
   results::FigureData data;
   data.title = scene.title;
   data.columns = {{"time for a point (s)", results::Scale::logarithmic},
@@ -154,13 +155,13 @@ const scene::StudyType& accuracy() {
   static const StudyOf<AccuracySettings, Accuracy> type(
       {.name = "accuracy",
        .help = "time and error of the ways to compute a frequency response",
-       .keys = keys(),
+       .keys = keys_of_accuracy(),
        .compute =
            [](const Case& at, const AccuracySettings& settings, const results::ProgressCallback& progress) {
              return std::vector{observables::accuracy(at.scene, settings, progress)};
            },
-       .results = described,
-       .figures = figures,
+       .results = described_accuracy,
+       .figures = accuracy_figures,
        .coefficients = false,
        .timed = true});
   return type;

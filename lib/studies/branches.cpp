@@ -40,8 +40,8 @@ Asked asked_of(const ResponseBranch& branch) {
 }
 
 /// The tables of branches with the same columns.
-struct Tables {
-  Tables(const scene::Scene& scene, Asked asked) : points(responses(scene, asked)) {
+struct BranchTables {
+  BranchTables(const scene::Scene& scene, Asked asked) : points(responses(scene, asked)) {
     events.add({"kind"}, "", "`peak`, `fold` and so on",
                [](const ResponseEvent& event) { return event.kind; });
     events.add({"nonsmooth"}, "", "at a kink of the branch",
@@ -108,7 +108,7 @@ std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked)
   return all;
 }
 
-results::Schema schema(const scene::Scene& scene, const Asked& asked, const Tables& tables) {
+results::Schema schema(const scene::Scene& scene, const Asked& asked, const BranchTables& tables) {
   return {.format = "arcslip-branches-1",
           .list = "branches",
           .noun = "branch",
@@ -130,7 +130,7 @@ results::Object leaves(const scene::Scene& scene, const observables::Leaves& at)
 }
 
 // What is told beside the table: what its motions are, where they are unstable, and what was not followed.
-std::string remark(const scene::Scene& scene, const ResponseBranch& branch) {
+std::string branch_remark(const scene::Scene& scene, const ResponseBranch& branch) {
   std::string text;
   const auto add = [&](const std::string& more) {
     if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
@@ -145,7 +145,7 @@ std::string remark(const scene::Scene& scene, const ResponseBranch& branch) {
   return text;
 }
 
-results::Result result(const scene::Scene& scene, const ResponseBranch& branch, const Tables& tables,
+results::Result result(const scene::Scene& scene, const ResponseBranch& branch, const BranchTables& tables,
                        const Asked& asked, const RunOptions& options) {
   results::Result result{0, {branch.study, branch.kind, named(scene, branch.set)}, {}, {}};
   result.head.parent = branch.parent;
@@ -164,9 +164,12 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch, 
   if (options.points) result.tables.push_back(tables.points.rows(branch.points));
   result.tables.resize(1);
   result.tables.push_back(tables.events.rows(branch.events));
-  result.end = {
-      branch.status,        stop(branch.stop), {{"solver", solver(branch.solver)}}, doubt_of(branch), {},
-      remark(scene, branch)};
+  result.end = {branch.status,
+                stop(branch.stop),
+                {{"solver", solver(branch.solver)}},
+                doubt_of(branch),
+                {},
+                branch_remark(scene, branch)};
   if (!branch.untraced.empty())
     result.end.facts.push_back(
         {"untraced", results::Value::List(branch.untraced.begin(), branch.untraced.end())});
@@ -177,7 +180,7 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch, 
 
 Described<ResponseBranch> branches(const scene::Scene& scene, Asked asked, const RunOptions& options) {
   asked.coefficients = options.coefficients;
-  const auto tables = std::make_shared<const Tables>(scene, asked);
+  const auto tables = std::make_shared<const BranchTables>(scene, asked);
   return {schema(scene, asked, *tables), [&scene, tables, asked, options](const ResponseBranch& branch) {
             return result(scene, branch, *tables, asked, options);
           }};

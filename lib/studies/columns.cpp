@@ -19,7 +19,7 @@ namespace {
 using observables::Quantity;
 using observables::ResponsePoint;
 
-std::vector<std::string> keys(std::string_view path) {
+std::vector<std::string> keys_of_path(std::string_view path) {
   std::vector<std::string> all;
   for (auto point = path.find('.'); point != std::string_view::npos; point = path.find('.')) {
     all.emplace_back(path.substr(0, point));
@@ -32,9 +32,9 @@ std::vector<std::string> keys(std::string_view path) {
 /// Puts the quantities that things of this origin may have to a table of items, of each of which of(item) is
 /// one; null: the item has none.
 template <class Of, class Item, class OfItem>
-void add(std::span<const Quantity<Of>> quantities, const typename Quantity<Of>::Origin& origin,
-         const scene::Scene& scene, const Asked& asked, const std::vector<std::string>& prefix, OfItem of,
-         results::TableOf<Item>& table) {
+void add_quantities(std::span<const Quantity<Of>> quantities, const typename Quantity<Of>::Origin& origin,
+                    const scene::Scene& scene, const Asked& asked, const std::vector<std::string>& prefix,
+                    OfItem of, results::TableOf<Item>& table) {
   for (const Quantity<Of>& quantity : quantities) {
     if (quantity.in && !quantity.in(origin)) continue;
     const bool with_maxima = quantity.path.starts_with("maxima.") || quantity.path == "stick_estimate";
@@ -43,7 +43,7 @@ void add(std::span<const Quantity<Of>> quantities, const typename Quantity<Of>::
         !observables::is_of_modes(quantity.path))
       continue;
     std::vector<std::string> path = prefix;
-    for (std::string& key : keys(quantity.path)) path.push_back(std::move(key));
+    for (std::string& key : keys_of_path(quantity.path)) path.push_back(std::move(key));
     const bool is_frequency = quantity.unit == observables::frequency_unit;
     const double unit = is_frequency ? scene::to_rad_per_s(scene.frequency_unit) : 1;
     const std::string_view unit_name = is_frequency ? scene::unit_name(scene.frequency_unit) : quantity.unit;
@@ -71,29 +71,29 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
   if (!asked.over.empty())
     table.add({asked.over}, parameter_unit(scene, asked.over), "the continuation parameter",
               [](const ResponsePoint& response) { return response.over; });
-  add(
+  add_quantities(
       observables::response_quantities(), scene, scene, asked, {},
       [](const ResponsePoint& response) { return &response; }, table);
   if (asked.stability)
-    add(
+    add_quantities(
         observables::stability_quantities(), scene, scene, asked, {},
         [](const ResponsePoint& response) { return response.stability ? &*response.stability : nullptr; },
         table);
   if (asked.mode)
-    add(
+    add_quantities(
         observables::mode_quantities(), scene, scene, {}, {},
         [](const ResponsePoint& response) { return &response; }, table);
   const std::vector<scene::Part> elements = scene::all_elements(scene);
   for (std::size_t e = 0; e < elements.size(); ++e)
     if (elements[e].detailed)
-      add(
+      add_quantities(
           observables::element_quantities(), elements[e], scene, asked, {"elements", elements[e].name},
           [e](const ResponsePoint& response) {
             return e < response.elements.size() ? &response.elements[e] : nullptr;
           },
           table);
   for (std::size_t k = 0; k < scene.patches.size(); ++k)
-    add(
+    add_quantities(
         observables::patch_quantities(), scene.patches[k], scene, asked, {"patches", scene.patches[k].name},
         [k](const ResponsePoint& response) {
           return k < response.patches.size() ? &response.patches[k] : nullptr;
@@ -101,7 +101,7 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
         table);
   for (std::size_t r = 0; r < scene.responses.size(); ++r)
     if (const scene::Response& named = scene.responses[r]; !named.name.empty())
-      add(
+      add_quantities(
           observables::named_response_quantities(), named, scene,
           {.maxima = asked.maxima, .mode = asked.mode}, {"responses", named.name},
           [r](const ResponsePoint& response) {

@@ -33,7 +33,7 @@ scene::file::KeysOf<BifurcationRange> keys_of_bifurcations() {
 constexpr std::array<scene::file::Word<Resonance>, 2> resonances = {
     {{"amplitude", Resonance::amplitude}, {"phase", Resonance::phase}}};
 
-scene::file::KeysOf<CurveRange> keys() {
+scene::file::KeysOf<CurveRange> keys_of_curves() {
   scene::file::KeysOf<CurveRange> keys;
   keys.add(scene::file::range_over(&CurveRange::over, &CurveRange::from, &CurveRange::to));
   keys.add(scene::file::window(&CurveRange::frequency_from, &CurveRange::frequency_to));
@@ -42,7 +42,7 @@ scene::file::KeysOf<CurveRange> keys() {
 }
 
 scene::file::KeysOf<CurveRange> keys_of_peaks() {
-  scene::file::KeysOf<CurveRange> all = keys();
+  scene::file::KeysOf<CurveRange> all = keys_of_curves();
   all.add(scene::file::word("resonance", &CurveRange::resonance, resonances,
                             "the largest amplitude, or the excitation a quarter period ahead of the motion"));
   return all;
@@ -60,7 +60,7 @@ const scene::StudyType& peaks() {
 const scene::StudyType& folds() {
   static const StudyOf<CurveRange, observables::ResponseBranch> type(
       branch_kind<observables::fold_curves, BranchKind::folds>(
-          "folds", "folds of the frequency response over a parameter, with their cusps", keys()));
+          "folds", "folds of the frequency response over a parameter, with their cusps", keys_of_curves()));
   return type;
 }
 

@@ -38,7 +38,7 @@ scene::file::KeyGroup<FrequencyRange> limit(scene::file::KeyGroup<BranchLimits> 
   return group;
 }
 
-scene::file::KeysOf<FrequencyRange> keys() {
+scene::file::KeysOf<FrequencyRange> keys_of_frf() {
   scene::file::KeysOf<FrequencyRange> keys;
   keys.add(scene::file::frequency_range(&FrequencyRange::from, &FrequencyRange::to));
   add_method_key(keys);
@@ -61,7 +61,7 @@ scene::file::KeysOf<FrequencyRange> keys() {
 
 KindOf<FrequencyRange, observables::ResponseBranch> kind() {
   auto kind = branch_kind<observables::frequency_response, BranchKind::responses>(
-      "frf", "frequency responses, with their peaks and folds", keys());
+      "frf", "frequency responses, with their peaks and folds", keys_of_frf());
   kind.refine = refined_in_parts<FrequencyRange>;
   return kind;
 }

@@ -14,7 +14,7 @@ constexpr int most_modes = 10'000;
 constexpr int most_true_peaks = 1000;
 constexpr double largest_amplitude = 1e100;
 
-scene::file::KeysOf<ModeRange> keys() {
+scene::file::KeysOf<ModeRange> keys_of_modes() {
   scene::file::KeysOf<ModeRange> keys;
   keys.add(scene::file::whole("mode", &ModeRange::mode, 1, most_modes,
                               "the number of the mode, by the frequency of the structure at rest"));
@@ -33,7 +33,7 @@ scene::file::KeysOf<ModeRange> keys() {
 const scene::StudyType& modes() {
   static const StudyOf<ModeRange, observables::ResponseBranch> type(
       branch_kind<observables::nonlinear_modes, BranchKind::modes>(
-          "modes", "frequency and damping ratio of a nonlinear mode over its amplitude", keys()));
+          "modes", "frequency and damping ratio of a nonlinear mode over its amplitude", keys_of_modes()));
   return type;
 }
 

@@ -19,15 +19,15 @@ namespace {
 using observables::Motion;
 
 /// One instant of a history.
-struct Instant {
+struct MotionInstant {
   const time::TimeHistory* history;
   std::size_t i;
 };
 
-results::TableOf<Instant> history(const scene::Scene& scene) {
-  results::TableOf<Instant> table;
+results::TableOf<MotionInstant> motion_history(const scene::Scene& scene) {
+  results::TableOf<MotionInstant> table;
   const auto add = [&](std::vector<std::string> path, const char* unit, const char* help, auto list_of) {
-    table.add(std::move(path), unit, help, [list_of](const Instant& at) {
+    table.add(std::move(path), unit, help, [list_of](const MotionInstant& at) {
       const std::vector<double>* list = list_of(*at.history);
       return list && at.i < list->size() ? std::optional((*list)[at.i]) : std::nullopt;
     });
@@ -87,7 +87,7 @@ results::Object start(const observables::MotionDeparture& departure) {
 }
 
 // Where it went, a sentence.
-std::string remark(const Motion& motion) {
+std::string motion_remark(const Motion& motion) {
   if (!motion.departure) return {};
   const observables::MotionDeparture& of = *motion.departure;
   std::ostringstream text;
@@ -98,7 +98,7 @@ std::string remark(const Motion& motion) {
   return text.str();
 }
 
-results::Object facts(const scene::Scene& scene, const Motion& motion) {
+results::Object motion_facts(const scene::Scene& scene, const Motion& motion) {
   results::Value::List multipliers;
   for (const std::complex<double>& multiplier : motion.multipliers)
     multipliers.emplace_back(std::vector<double>{multiplier.real(), multiplier.imag()});
@@ -148,7 +148,7 @@ std::string doubt(const Motion& motion) {
 }  // namespace
 
 Described<Motion> motions(const scene::Scene& scene, const RunOptions& options) {
-  const auto table = std::make_shared<const results::TableOf<Instant>>(history(scene));
+  const auto table = std::make_shared<const results::TableOf<MotionInstant>>(motion_history(scene));
   std::vector<results::Shown> shown{
       {"method", {"method"}},
       {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"},
@@ -163,21 +163,23 @@ Described<Motion> motions(const scene::Scene& scene, const RunOptions& options) 
                          .noun = "motion",
                          .tables = {{"history", table->columns(), {"elements"}, true}},
                          .shown = std::move(shown)};
-  return {
-      std::move(schema), [&scene, table, points = options.points](const Motion& motion) {
-        std::vector<Instant> instants;
-        for (std::size_t i = 0; points && i < motion.history.time.size(); ++i)
-          instants.push_back({&motion.history, i});
-        return results::Result{
-            .schema = 0,
-            .head = {motion.study,
-                     motion.kind,
-                     named(scene, motion.set),
-                     {{"parameters", named(scene, motion.parameters)}}},
-            .tables = {table->rows(instants)},
-            .end = {
-                motion.status, stop(motion.stop), facts(scene, motion), doubt(motion), {}, remark(motion)}};
-      }};
+  return {std::move(schema), [&scene, table, points = options.points](const Motion& motion) {
+            std::vector<MotionInstant> instants;
+            for (std::size_t i = 0; points && i < motion.history.time.size(); ++i)
+              instants.push_back({&motion.history, i});
+            return results::Result{.schema = 0,
+                                   .head = {motion.study,
+                                            motion.kind,
+                                            named(scene, motion.set),
+                                            {{"parameters", named(scene, motion.parameters)}}},
+                                   .tables = {table->rows(instants)},
+                                   .end = {motion.status,
+                                           stop(motion.stop),
+                                           motion_facts(scene, motion),
+                                           doubt(motion),
+                                           {},
+                                           motion_remark(motion)}};
+          }};
 }
 
 results::Results results_of(const scene::Scene& scene, std::span<const Motion> all,

@@ -21,12 +21,10 @@ using observables::Offsets;
 using observables::PointResponse;
 using observables::PointSettings;
 
-constexpr int most_steps = 10'000'000;
-
 constexpr std::array<scene::file::Word<Offsets>, 2> offset_words = {
     {{"chosen", Offsets::chosen}, {"range", Offsets::range}}};
 
-scene::file::KeysOf<PointSettings> keys() {
+scene::file::KeysOf<PointSettings> keys_of_point() {
   scene::file::KeysOf<PointSettings> keys;
   keys.add(scene::file::one_frequency(&PointSettings::frequency, "the excitation frequency"));
   keys.add(
@@ -44,27 +42,27 @@ std::span<const std::string_view> direction_names(const scene::Part& element) {
 }
 
 /// One instant of a history.
-struct Instant {
+struct PointInstant {
   const observables::History* history;
   std::size_t i;
 };
 
-results::TableOf<Instant> history(const scene::Scene& scene) {
+results::TableOf<PointInstant> point_history(const scene::Scene& scene) {
   using observables::ElementHistory;
-  results::TableOf<Instant> table;
+  results::TableOf<PointInstant> table;
   const std::vector<scene::Part> elements = scene::all_elements(scene);
   table.add({"time"}, "s", "of the period",
-            [](const Instant& at) { return at.history->angle[at.i] / at.history->base_frequency; });
+            [](const PointInstant& at) { return at.history->angle[at.i] / at.history->base_frequency; });
   table.add({"angle"}, "rad", "base frequency times the time",
-            [](const Instant& at) { return at.history->angle[at.i]; });
+            [](const PointInstant& at) { return at.history->angle[at.i]; });
   table.add({"displacement"}, "m", "of the response",
-            [](const Instant& at) { return at.history->displacement[at.i]; });
+            [](const PointInstant& at) { return at.history->displacement[at.i]; });
   table.add({"velocity"}, "m/s", "of the response",
-            [](const Instant& at) { return at.history->velocity[at.i]; });
+            [](const PointInstant& at) { return at.history->velocity[at.i]; });
   const auto add = [&](std::size_t e, const char* key, const char* unit, const char* help,
                        std::vector<double> ElementHistory::*member) {
     table.add({"elements", elements[e].name, key}, unit, help,
-              [e, member](const Instant& at) { return (at.history->elements[e].*member)[at.i]; });
+              [e, member](const PointInstant& at) { return (at.history->elements[e].*member)[at.i]; });
   };
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (!elements[e].detailed) continue;
@@ -77,7 +75,7 @@ results::TableOf<Instant> history(const scene::Scene& scene) {
       const auto add_further = [&](const char* key, const char* unit, const char* help,
                                    std::vector<double> observables::DirectionHistory::*member) {
         table.add({"elements", elements[e].name, "directions", std::string(names[i]), key}, unit, help,
-                  [e, i, member](const Instant& at) {
+                  [e, i, member](const PointInstant& at) {
                     return (at.history->elements[e].further[i - 1].*member)[at.i];
                   });
       };
@@ -89,14 +87,14 @@ results::TableOf<Instant> history(const scene::Scene& scene) {
   return table;
 }
 
-std::vector<Instant> instants(const PointResponse& response, const scene::RunOptions& options) {
-  std::vector<Instant> all;
+std::vector<PointInstant> instants(const PointResponse& response, const scene::RunOptions& options) {
+  std::vector<PointInstant> all;
   for (std::size_t i = 0; options.points && i < response.history.angle.size(); ++i)
     all.push_back({&response.history, i});
   return all;
 }
 
-std::string doubt_of(const PointResponse& response) {
+std::string point_doubt(const PointResponse& response) {
   return response.doubt.empty() ? doubt_of_stops(response.point.stops) : response.doubt;
 }
 
@@ -108,7 +106,7 @@ results::Object offset_range(const observables::OffsetRange& range) {
   return object;
 }
 
-results::Object facts(const scene::Scene& scene, const PointResponse& response, bool stability) {
+results::Object point_facts(const scene::Scene& scene, const PointResponse& response, bool stability) {
   results::Object all;
   if (response.status == observables::Status::complete) {
     const auto table = responses(scene, {.maxima = true, .coefficients = true, .stability = stability});
@@ -121,9 +119,9 @@ results::Object facts(const scene::Scene& scene, const PointResponse& response, 
   return all;
 }
 
-Described<PointResponse> described(const scene::Scene& scene, const PointSettings& settings,
-                                   const scene::RunOptions& options) {
-  const auto table = std::make_shared<const results::TableOf<Instant>>(history(scene));
+Described<PointResponse> described_point(const scene::Scene& scene, const PointSettings& settings,
+                                         const scene::RunOptions& options) {
+  const auto table = std::make_shared<const results::TableOf<PointInstant>>(point_history(scene));
   std::vector<results::Shown> shown{
       {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"},
       {.title = "A_max (m)",
@@ -151,7 +149,7 @@ Described<PointResponse> described(const scene::Scene& scene, const PointSetting
                                             {{"parameters", named(scene, response.parameters)}}},
                                    .tables = {table->rows(instants(response, options))},
                                    .end = {response.status, stop(response.stop),
-                                           facts(scene, response, stability), doubt_of(response)}};
+                                           point_facts(scene, response, stability), point_doubt(response)}};
           }};
 }
 
@@ -186,12 +184,12 @@ const scene::StudyType& point() {
   static const StudyOf<PointSettings, PointResponse> type(
       {.name = "point",
        .help = "the responses at one frequency, with all of their quantities and hysteresis loops",
-       .keys = keys(),
+       .keys = keys_of_point(),
        .compute =
            [](const Case& at, const PointSettings& settings, const results::ProgressCallback& progress) {
              return observables::point_responses(at.scene, settings, progress);
            },
-       .results = described,
+       .results = described_point,
        .figures =
            [](const scene::Scene& scene, std::span<const PointResponse> all) {
              std::vector<observables::Motion> motions;

@@ -29,6 +29,9 @@
 
 namespace arcslip::studies {
 
+inline constexpr int most_steps = 10'000'000;     // per period, and of a history in all
+inline constexpr int most_periods = 100'000'000;  // of a transient
+
 /// One combination of a study's lists.
 struct Case {
   const scene::Scene& scene;  // with its values

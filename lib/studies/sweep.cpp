@@ -26,7 +26,7 @@ using observables::SweepSettings;
 using scene::file::KeyGroup;
 using scene::file::Reading;
 
-constexpr int most_points = 1'000'000, most_periods = 100'000'000, most_steps = 10'000'000;
+constexpr int most_points = 1'000'000;
 
 std::vector<scene::file::Word<SweepDirection>> direction_words() {
   std::vector<scene::file::Word<SweepDirection>> words;
@@ -69,7 +69,7 @@ void check_number(const Reading& reading, SweepSettings& sweep) {
                            std::to_string(most_points) + " frequencies");
 }
 
-scene::file::KeysOf<SweepSettings> keys() {
+scene::file::KeysOf<SweepSettings> keys_of_sweep() {
   using namespace scene::file;
   KeysOf<SweepSettings> keys;
   keys.add(frequency_range(&SweepSettings::from, &SweepSettings::to));
@@ -96,8 +96,8 @@ struct Of {
   const Item* item;
 };
 
-struct Tables {
-  explicit Tables(const scene::Scene& scene) {
+struct SweepTables {
+  explicit SweepTables(const scene::Scene& scene) {
     const std::string unit(scene::unit_name(scene.frequency_unit));
     const auto in_unit = [&scene](double omega) { return in_scene_unit(scene, omega); };
     using Point = Of<SweepPoint>;
@@ -180,9 +180,9 @@ std::string other_motions(const scene::Scene& scene, const FrequencySweep& sweep
   return text.str();
 }
 
-Described<FrequencySweep> described(const scene::Scene& scene, const SweepSettings&,
-                                    const scene::RunOptions& options) {
-  const auto tables = std::make_shared<const Tables>(scene);
+Described<FrequencySweep> described_sweep(const scene::Scene& scene, const SweepSettings&,
+                                          const scene::RunOptions& options) {
+  const auto tables = std::make_shared<const SweepTables>(scene);
   const std::string unit(scene::unit_name(scene.frequency_unit));
   results::Schema schema{
       .format = "arcslip-sweeps-1",
@@ -223,7 +223,7 @@ Described<FrequencySweep> described(const scene::Scene& scene, const SweepSettin
 
 using results::Record;
 
-Record record(const scene::Scene& scene, const SweepPoint& point) {
+Record sweep_record(const scene::Scene& scene, const SweepPoint& point) {
   return {in_scene_unit(scene, point.omega), point.amplitude,
           point.settled ? point.period : observables::no_value};
 }
@@ -235,7 +235,7 @@ results::FigureLine line_of_sweep(const scene::Scene& scene, const FrequencySwee
   line.parts.emplace_back();
   auto jump = sweep.jumps.begin();
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
-    line.parts.back().push_back(record(scene, sweep.points[i]));
+    line.parts.back().push_back(sweep_record(scene, sweep.points[i]));
     if (jump == sweep.jumps.end() || jump->after != i) continue;
     const Record before{in_scene_unit(scene, jump->omega), jump->amplitude, observables::no_value};
     const Record after{in_scene_unit(scene, jump->omega_after), jump->amplitude_after, observables::no_value};
@@ -248,7 +248,8 @@ results::FigureLine line_of_sweep(const scene::Scene& scene, const FrequencySwee
   return line;
 }
 
-std::vector<results::FigureData> figures(const scene::Scene& scene, std::span<const FrequencySweep> sweeps) {
+std::vector<results::FigureData> sweep_figures(const scene::Scene& scene,
+                                               std::span<const FrequencySweep> sweeps) {
   results::FigureData data;
   data.title = scene.title;
   data.columns = {{results::with_unit(label_of(scene, "frequency"), scene::unit_name(scene.frequency_unit))},
@@ -277,13 +278,13 @@ const scene::StudyType& sweep() {
   static const StudyOf<SweepSettings, FrequencySweep> type(
       {.name = "sweep",
        .help = "the motions that a slow sweep of the frequency up and down follows, with their jumps",
-       .keys = keys(),
+       .keys = keys_of_sweep(),
        .compute =
            [](const Case& at, const SweepSettings& settings, const results::ProgressCallback& progress) {
              return observables::frequency_sweep(at.scene, settings, progress);
            },
-       .results = described,
-       .figures = figures,
+       .results = described_sweep,
+       .figures = sweep_figures,
        .coefficients = false});
   return type;
 }

@@ -16,13 +16,10 @@ using observables::TimeMethod;
 using observables::TimeSettings;
 using scene::file::Reading;
 
-constexpr int most_steps = 10'000'000;     // per period, and with history in all
-constexpr int most_periods = 100'000'000;  // of a transient
-
 constexpr std::array methods = {TimeMethod::shooting, TimeMethod::newmark_shooting, TimeMethod::newmark,
                                 TimeMethod::event_driven};
 
-std::vector<scene::file::Word<TimeMethod>> method_words() {
+std::vector<scene::file::Word<TimeMethod>> time_method_words() {
   std::vector<scene::file::Word<TimeMethod>> words;
   for (const TimeMethod method : methods) words.push_back({name(method), method});
   return words;
@@ -48,11 +45,11 @@ void check_history(const Reading& reading, TimeSettings& time) {
                            std::to_string(most_steps) + " steps together");
 }
 
-scene::file::KeysOf<TimeSettings> keys() {
+scene::file::KeysOf<TimeSettings> keys_of_time() {
   using namespace scene::file;
   KeysOf<TimeSettings> keys;
   keys.add(one_frequency(&TimeSettings::frequency, "the excitation frequency"));
-  keys.add(word("method", &TimeSettings::method, method_words(),
+  keys.add(word("method", &TimeSettings::method, time_method_words(),
                 "shooting (the periodic motion, exact for piecewise linear scenes), newmark-shooting, or a "
                 "transient from rest: newmark, event-driven"));
   keys.add(whole("steps", &TimeSettings::steps, 1, most_steps, "steps per period of the motion"));
@@ -85,7 +82,7 @@ const scene::StudyType& time() {
       {.name = "time",
        .help =
            "time integration at one frequency: steady state or transient from rest, with hysteresis loops",
-       .keys = keys(),
+       .keys = keys_of_time(),
        .compute =
            [](const Case& at, const TimeSettings& settings, const results::ProgressCallback& progress) {
              return std::vector{observables::motion_in_time(at.scene, settings, progress)};

@@ -10,7 +10,7 @@ namespace {
 
 using observables::ParameterRange;
 
-scene::file::KeysOf<ParameterRange> keys() {
+scene::file::KeysOf<ParameterRange> keys_of_trace() {
   scene::file::KeysOf<ParameterRange> keys;
   keys.add(scene::file::range_over(&ParameterRange::over, &ParameterRange::from, &ParameterRange::to));
   keys.add(scene::file::one_frequency(&ParameterRange::frequency, "the excitation frequency"));
@@ -25,7 +25,8 @@ scene::file::KeysOf<ParameterRange> keys() {
 const scene::StudyType& trace() {
   static const StudyOf<ParameterRange, observables::ResponseBranch> type([] {
     auto kind = branch_kind<observables::parameter_response, BranchKind::over_parameter>(
-        "trace", "responses over a parameter at a fixed frequency, with their extrema and folds", keys());
+        "trace", "responses over a parameter at a fixed frequency, with their extrema and folds",
+        keys_of_trace());
     kind.refine = refined_in_parts<ParameterRange>;
     return kind;
   }());

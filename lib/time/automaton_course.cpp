@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace arcslip::time {
 namespace {
@@ -15,7 +14,6 @@ using elements::Automaton;
 using elements::Guard;
 using elements::Mode;
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr std::size_t most_modes = 64;
 
 const Mode& mode_of(const Automaton& automaton, int at) {
@@ -78,9 +76,8 @@ namespace {
 
 constexpr int most_periods = 6;
 constexpr int most_changes = 10'000;
-constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-constexpr double touch = 1e-7;     // rad
-constexpr double repeats = 1e-11;  // of the memory, relative to the motion
+constexpr double touch = 1e-7;         // rad
+constexpr double same_memory = 1e-11;  // of the memory, relative to the motion
 
 using Series = MotionSeries::Series;
 
@@ -99,13 +96,13 @@ void begin_at(double s_0, Series& c) {
 
 void MotionSeries::expand(const elements::Harmonics& harmonics, const Eigen::MatrixXd& q) {
   order_ = harmonics.order;
-  pieces_ = static_cast<int>(std::ceil(turn * order_));
+  pieces_ = static_cast<int>(std::ceil(elements::whole_turn * order_));
   directions_ = static_cast<std::size_t>(q.cols());
-  length_ = turn / pieces_;
+  length_ = elements::whole_turn / pieces_;
   size_ = q.colwise().norm().sum();
   series_.assign(static_cast<std::size_t>(pieces_) * directions_, Series{});
   for (int piece = 0; piece < pieces_; ++piece) {
-    const double theta = turn * piece / pieces_;
+    const double theta = elements::whole_turn * piece / pieces_;
     for (int j = 0; j < harmonics.cosines(); ++j) {
       const int n = harmonics.cosine_order(j);
       const double cosine = std::cos(n * theta), sine = std::sin(n * theta);
@@ -161,7 +158,7 @@ class Follower {
       const double before = memory_at_start();
       if (!one_period(course.changes)) return false;
       const bool again =
-          now_ == course.first && std::abs(memory_at_start() - before) <= repeats * motion_.size();
+          now_ == course.first && std::abs(memory_at_start() - before) <= same_memory * motion_.size();
       if (again && period > 0) {
         drop_touches(course.changes);
         return true;
@@ -240,7 +237,7 @@ class Follower {
           for (std::size_t j = 0; j + 1 < c.size(); ++j)
             c[j] += by_v * static_cast<double>(j + 1) * series_[i][j + 1];
       }
-      const auto fall = first_fall(c, rounding * now.size);
+      const auto fall = first_fall(c, sum_rounding * now.size);
       if (!fall || (found && *fall >= s)) continue;
       s = *fall;
       found = &guard;
@@ -252,7 +249,7 @@ class Follower {
   bool stays(int group) {
     for (const Guard& guard : mode().leaves) {
       const Along now = along(guard);
-      double least = now.c - rounding * now.size;
+      double least = now.c - sum_rounding * now.size;
       const auto take = [&](double by, const MotionSeries::Range& range) {
         least += std::min(by * range.low, by * range.high);
       };
@@ -272,7 +269,7 @@ class Follower {
         continue;
       }
       look_at(piece);
-      double theta = turn * piece / motion_.pieces(), h = motion_.length();
+      double theta = elements::whole_turn * piece / motion_.pieces(), h = motion_.length();
       while (true) {
         double s = 1;
         const Guard* guard = first(h, s);
@@ -280,7 +277,8 @@ class Follower {
         if (changes.size() > most_changes) return false;
         if (follows()) z_ = memory(s);
         theta += s * h;
-        changes.push_back({std::min(theta, std::nexttoward(turn, 0.0L)), now_, guard->to, guard});
+        changes.push_back(
+            {std::min(theta, std::nexttoward(elements::whole_turn, 0.0L)), now_, guard->to, guard});
         now_ = guard->to;
         h *= 1 - s;
         if (!(h > 0)) break;

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace arcslip::time {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double turn = 2 * std::numbers::pi;
-constexpr double beside = 1e-6;        // rad, of an opening or a closing
-constexpr double beside_share = 1e-3;  // of a phase, at most
+constexpr double cut_angle = 1e-6;     // rad, of an opening or a closing
+constexpr double cut_share = 1e-3;     // of a phase, at most
 constexpr double fast = 300;           // g, over the fastest frequency: beyond, slip relaxes
 constexpr double fastest_of_all = 30;  // rad/rad that count for this
 constexpr double steady = 0.05;        // |r'| in relaxed slip, at most
@@ -22,13 +20,9 @@ Vector2d direction(double psi) {
   return {std::cos(psi), std::sin(psi)};
 }
 
-Vector2d turned(const Vector2d& n) {
-  return {-n[1], n[0]};
-}
-
-double within(double theta) {
-  const double rest = std::fmod(theta, turn);
-  return rest < 0 ? rest + turn : rest;
+double within_turn(double theta) {
+  const double rest = std::fmod(theta, elements::whole_turn);
+  return rest < 0 ? rest + elements::whole_turn : rest;
 }
 
 }  // namespace
@@ -56,22 +50,23 @@ bool DiscCourse::follow(const elements::Harmonics& harmonics, const Matrix& q, d
     }
     const double first = phases_.empty() ? 0 : phases_.front().begin;
     const double last = phases_.empty() ? 0 : phases_.back().end;
-    if (last < first + turn) add(State::open, last, first + turn);
+    if (last < first + elements::whole_turn) add(State::open, last, first + elements::whole_turn);
   }
   const std::size_t count = phases_.size();
   for (std::size_t k = 0; k < count && count > 1; ++k) {
     Phase& phase = phases_[k];
-    changes_.push_back(within(phase.begin));
+    changes_.push_back(within_turn(phase.begin));
     if (!has_friction(phase)) continue;
-    const double cut = std::min(beside, beside_share * (phase.end - phase.begin));
+    const double cut = std::min(cut_angle, cut_share * (phase.end - phase.begin));
     if (phases_[k == 0 ? count - 1 : k - 1].state == State::open) phase.from += cut;
     if (phases_[k + 1 == count ? 0 : k + 1].state == State::open) phase.to -= cut;
     if (phase.from > phase.begin)
-      breaks_.push_back(within(phase.from));
+      breaks_.push_back(within_turn(phase.from));
     else
       phase.settled = settled_from(phase);
-    if (phase.to < phase.end) breaks_.push_back(within(phase.to));
-    if (phase.settled > phase.begin && phase.settled < phase.to) breaks_.push_back(within(phase.settled));
+    if (phase.to < phase.end) breaks_.push_back(within_turn(phase.to));
+    if (phase.settled > phase.begin && phase.settled < phase.to)
+      breaks_.push_back(within_turn(phase.settled));
   }
   return true;
 }
@@ -93,7 +88,7 @@ void DiscCourse::add(State state, double begin, double end, std::size_t first_pa
 
 DiscCourse::Place DiscCourse::place_of(double theta) const {
   const double begin = phases_.front().begin;
-  theta -= std::floor((theta - begin) / turn) * turn;
+  theta -= std::floor((theta - begin) / elements::whole_turn) * elements::whole_turn;
   const auto after = std::upper_bound(phases_.begin(), phases_.end(), theta,
                                       [](double angle, const Phase& phase) { return angle < phase.begin; });
   const Phase& phase = after == phases_.begin() ? phases_.front() : *(after - 1);
@@ -119,7 +114,7 @@ DiscCourse::Slip DiscCourse::slip_at(const Place& place) const {
   const auto& [phase, theta] = place;
   Slip slip{};
   slip.n = normal_at(*phase, theta);
-  slip.t = turned(slip.n);
+  slip.t = elements::quarter_turn(slip.n);
   const elements::DiscPoint p = of_->disc.at(theta);
   slip.beside = slip.relaxes = theta < phase->from || theta > phase->to || !(p.h > 0);
   if (slip.beside) return slip;
@@ -195,14 +190,14 @@ void DiscCourse::pass(std::size_t change, const Matrix& dq, Matrix& memory) cons
   }
   const auto dx = dq.leftCols<2>();
   if (to.state == State::slip) {
-    const Vector2d t = turned(normal_at(to, to.begin));
+    const Vector2d t = elements::quarter_turn(normal_at(to, to.begin));
     memory.col(0) = -((from.state == State::stick ? memory : Matrix(dx)) * t).eval();
     memory.col(1).setZero();
     return;
   }
   const Vector dh = radius_by_normal() * dq.col(2);
   if (from.state == State::slip) {
-    const Vector2d n = normal_at(from, from.end), t = turned(n);
+    const Vector2d n = normal_at(from, from.end), t = elements::quarter_turn(n);
     const Vector y = memory.col(0);
     memory = (dx * n - dh) * n.transpose() - y * t.transpose();
     return;

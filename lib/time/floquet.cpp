@@ -7,42 +7,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 namespace arcslip::time {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr int pieces_at_least = 32;  // of smooth laws without memory in a period
 constexpr double stiffest = 800;     // rad of the fastest motion in such a piece: beyond, a law is too stiff
-constexpr double longest = 4;        // piece, rad of its fastest motion
-constexpr double resolved = 3e-7;    // what a piece may leave out of hysteresis, before orthogonality
-constexpr double shortest = 1e-9;    // rad
-constexpr double fastest_turns =
-    1e12;  // of the fastest motion in a period: beyond, nothing is left of its phase
-constexpr double pieces_per_order = 1;  // of the motion's harmonics
-constexpr double long_enough = 0.05;    // of the longest interval without a change, to begin in it
-
-// An automaton, where it acts, and what it does along the motion.
-struct Part {
-  int element;
-  elements::Automaton automaton;
-  int memory;  // in MotionState::z; -1: none
-  Matrix over_mass, directions;
-  Course course{};
-  int now = 0;
-
-  const elements::Mode& mode() const { return automaton.modes[static_cast<std::size_t>(now)]; }
-  bool rests() const { return memory >= 0 && mode().rests; }
-};
-
-// Of the mode of parts[of], or of the memory of a varying law.
-struct Change {
-  double theta;  // from the start
-  std::size_t of, index;
-  bool varying = false;
-};
+constexpr double longest_piece = 4;  // piece, rad of its fastest motion
+// What a piece may leave out of hysteresis, before orthogonality.
+constexpr double hysteresis_left_out = 3e-7;
+constexpr double shortest_piece = 1e-9;  // rad
+constexpr double pieces_per_order = 1;   // of the motion's harmonics
+constexpr double long_enough = 0.05;     // of the longest interval without a change, to begin in it
 
 bool falling(const std::complex<double>& a, const std::complex<double>& b) {
   return std::abs(a) > std::abs(b);
@@ -51,6 +28,26 @@ bool falling(const std::complex<double>& a, const std::complex<double>& b) {
 }  // namespace
 
 struct Floquet::Impl {
+  // An automaton, where it acts, and what it does along the motion.
+  struct Part {
+    int element;
+    elements::Automaton automaton;
+    int memory;  // in MotionState::z; -1: none
+    Matrix over_mass, directions;
+    Course course{};
+    int now = 0;
+
+    const elements::Mode& mode() const { return automaton.modes[static_cast<std::size_t>(now)]; }
+    bool rests() const { return memory >= 0 && mode().rests; }
+  };
+
+  // Of the mode of parts[of], or of the memory of a varying law.
+  struct Change {
+    double theta;  // from the start
+    std::size_t of, index;
+    bool varying = false;
+  };
+
   Impl(const EquationOfMotion& of, const ModesKept& modes_kept, std::shared_ptr<const NaturalModes> modes,
        Impl* before)
       : equation(of), with_inertia(modes_kept) {
@@ -164,7 +161,7 @@ struct Floquet::Impl {
                      [](const Change& a, const Change& b) { return a.theta < b.theta; });
     const auto length = [&](std::size_t k) {
       const bool last = k + 1 == changes.size();
-      return (last ? changes.front().theta + turn : changes[k + 1].theta) - changes[k].theta;
+      return (last ? changes.front().theta + elements::whole_turn : changes[k + 1].theta) - changes[k].theta;
     };
     double longest = 0;
     for (std::size_t k = 0; k < changes.size(); ++k) longest = std::max(longest, length(k));
@@ -192,7 +189,7 @@ struct Floquet::Impl {
     }
     for (Change& change : changes) {
       change.theta -= start;
-      if (change.theta < 0) change.theta += turn;
+      if (change.theta < 0) change.theta += elements::whole_turn;
     }
     std::stable_sort(changes.begin(), changes.end(),
                      [](const Change& a, const Change& b) { return a.theta < b.theta; });
@@ -234,7 +231,7 @@ struct Floquet::Impl {
     varying.begin(start, starts, memories);
     C = over_mass_C / omega;
     rate = fastest_mode / omega;
-    piece = turn / std::max<double>(pieces_at_least, pieces_per_order * harmonics.order);
+    piece = elements::whole_turn / std::max<double>(pieces_at_least, pieces_per_order * harmonics.order);
     return rate < fastest_turns;
   }
 
@@ -278,16 +275,16 @@ struct Floquet::Impl {
     const double in_series = fastest_with(coefficients.sizes);
     if (!std::isfinite(in_series + coefficients.last + coefficients.memory + coefficients.last_memory))
       return false;
-    const double most_left_out = h > shortest ? resolved * fastest / h : HUGE_VAL;
+    const double most_left_out = h > shortest_piece ? hysteresis_left_out * fastest / h : HUGE_VAL;
     const double last = coefficients.last + fastest * coefficients.last_memory;
-    if (h * std::max(in_series, coefficients.memory) <= longest && last <= most_left_out &&
+    if (h * std::max(in_series, coefficients.memory) <= longest_piece && last <= most_left_out &&
         varying.left_out(start + from, h) <= most_left_out) {
       variation.move(h, rate, varying.variables(), W, V);
       if (varying.any_relaxed())
         varying.relax(start + from + h, W, V, variation.acceleration(varying.variables(), W, V));
       return true;
     }
-    const int shares = std::max(2, static_cast<int>(std::ceil(h * fastest / longest)));
+    const int shares = std::max(2, static_cast<int>(std::ceil(h * fastest / longest_piece)));
     for (int i = 0; i < shares; ++i)
       if (!move_piece(from + h * i / shares, h / shares)) return false;
     return true;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace arcslip::time {
 namespace {
@@ -13,27 +12,26 @@ namespace {
 using Complex = std::complex<double>;
 using ComplexMatrix = Eigen::MatrixXcd;
 
-constexpr double turn = 2 * std::numbers::pi;
-constexpr int further_orders = 10;    // of z above twice those of the motion
-constexpr double negligible = 1e-17;  // coefficient of T or B, over the largest
-constexpr double longest = 2;         // of the fastest rate, in one series
-constexpr int most_terms = 60;
-constexpr double left_out = 1e-18;    // of a series, by its last term
-constexpr int most_attempts = 5;      // with twice as many orders each
-constexpr double small_tail = 1e-11;  // of z, at the last quarter of the orders, over the largest
-constexpr double most_rates = 1e5;    // rad/rad: beyond, no one waits
-
-struct Law {
-  int element;
-  Matrix over_mass, directions;
-  std::vector<elements::Automaton> automata;  // without memory; empty: smooth
-  bool moving;                                // depends on velocities
-  std::vector<ComplexMatrix> T, B;            // coefficients m = 0, 1, ...
-};
+constexpr int further_orders = 10;                // of z above twice those of the motion
+constexpr double negligible_coefficient = 1e-17;  // coefficient of T or B, over the largest
+constexpr double longest_in_series = 2;           // of the fastest rate, in one series
+constexpr int most_hill_terms = 60;
+constexpr double last_term_left_out = 1e-18;  // of a series, by its last term
+constexpr int most_attempts = 5;              // with twice as many orders each
+constexpr double small_tail = 1e-11;          // of z, at the last quarter of the orders, over the largest
+constexpr double most_rates = 1e5;            // rad/rad: beyond, no one waits
 
 }  // namespace
 
 struct Hill::Impl {
+  struct HillLaw {
+    int element;
+    Matrix over_mass, directions;
+    std::vector<elements::Automaton> automata;  // without memory; empty: smooth
+    bool moving;                                // depends on velocities
+    std::vector<ComplexMatrix> T, B;            // coefficients m = 0, 1, ...
+  };
+
   explicit Impl(const EquationOfMotion& of) : equation(of) {
     for (const TimeElement& element : equation.elements)
       if (element.law->memory() > 0)
@@ -47,13 +45,13 @@ struct Hill::Impl {
     over_mass_C = mass.solve(equation.C);
     for (std::size_t e = 0; e < equation.elements.size(); ++e) {
       const TimeElement& element = equation.elements[e];
-      Law& law = laws.emplace_back(Law{static_cast<int>(e),
-                                       mass.solve(element.directions),
-                                       element.directions,
-                                       {},
-                                       element.law->rate_dependent(),
-                                       {},
-                                       {}});
+      HillLaw& law = laws.emplace_back(HillLaw{static_cast<int>(e),
+                                               mass.solve(element.directions),
+                                               element.directions,
+                                               {},
+                                               element.law->rate_dependent(),
+                                               {},
+                                               {}});
       if (auto automata = element.law->automata(element.fields)) law.automata = std::move(*automata);
     }
   }
@@ -62,13 +60,13 @@ struct Hill::Impl {
                const std::vector<ElementCourse>& elements, const GoOn& go_on) {
     omega = base_frequency;
     const bool smooth =
-        std::all_of(laws.begin(), laws.end(), [](const Law& law) { return law.automata.empty(); });
+        std::all_of(laws.begin(), laws.end(), [](const HillLaw& law) { return law.automata.empty(); });
     for (const auto& element : elements)
       if (!element.q.allFinite()) return false;
     order = 2 * harmonics.order + further_orders;
     for (int attempt = 0; attempt < most_attempts; ++attempt, order *= 2) {
       double stiffness = 0, damping = 0;
-      for (Law& law : laws) {
+      for (HillLaw& law : laws) {
         const ElementCourse& element = elements[static_cast<std::size_t>(law.element)];
         law.T.clear();
         law.B.clear();
@@ -99,7 +97,7 @@ struct Hill::Impl {
   }
 
   // Coefficients of samples over the period.
-  void expand(Law& law, const elements::Harmonics& harmonics, const Matrix& motion) {
+  void expand(HillLaw& law, const elements::Harmonics& harmonics, const Matrix& motion) {
     const TimeElement& element = equation.elements[static_cast<std::size_t>(law.element)];
     const int samples = 4 * order + 4, directions = element.law->directions();
     law.T.assign(static_cast<std::size_t>(2 * order + 1), ComplexMatrix::Zero(directions, directions));
@@ -107,7 +105,7 @@ struct Hill::Impl {
     elements::StepEnd at{directions, 0};
     Vector q(directions), none(0);
     for (int i = 0; i < samples; ++i) {
-      const double theta = turn * i / samples;
+      const double theta = elements::whole_turn * i / samples;
       for (Eigen::Index k = 0; k < q.size(); ++k) {
         const auto values = elements::series_values(harmonics, motion.col(k), theta);
         q[k] = values.x;
@@ -115,7 +113,8 @@ struct Hill::Impl {
       }
       element.law->begin(element.fields, q, none, at);
       for (std::size_t m = 0; m < law.T.size(); ++m) {
-        const Complex by = std::polar(1.0 / samples, -turn * ((static_cast<int>(m) * i) % samples) / samples);
+        const Complex by = std::polar(
+            1.0 / samples, -elements::whole_turn * ((static_cast<int>(m) * i) % samples) / samples);
         law.T[m] += by * at.f_q;
         if (law.moving) law.B[m] += by * at.f_v;
       }
@@ -125,7 +124,7 @@ struct Hill::Impl {
   }
 
   // The sum of each mode's stiffness over its intervals.
-  bool expand_modes(Law& law, const elements::Harmonics& harmonics, const ElementCourse& element) {
+  bool expand_modes(HillLaw& law, const elements::Harmonics& harmonics, const ElementCourse& element) {
     const auto directions = law.directions.cols();
     law.T.assign(static_cast<std::size_t>(2 * order + 1), ComplexMatrix::Zero(directions, directions));
     series.expand(harmonics, element.q);
@@ -136,11 +135,11 @@ struct Hill::Impl {
       int mode = course.first;
       const auto add = [&](double to) {
         const Matrix& stiffness = automaton.modes[static_cast<std::size_t>(mode)].f_q;
-        law.T[0] += (to - from) / turn * stiffness;
+        law.T[0] += (to - from) / elements::whole_turn * stiffness;
         for (std::size_t m = 1; m < law.T.size(); ++m) {
           const double n = static_cast<double>(m);
-          law.T[m] += Complex(0, 1) / (turn * n) * (std::polar(1.0, -n * to) - std::polar(1.0, -n * from)) *
-                      stiffness;
+          law.T[m] += Complex(0, 1) / (elements::whole_turn * n) *
+                      (std::polar(1.0, -n * to) - std::polar(1.0, -n * from)) * stiffness;
         }
         from = to;
       };
@@ -148,7 +147,7 @@ struct Hill::Impl {
         add(change.theta);
         mode = change.to;
       }
-      add(turn);
+      add(elements::whole_turn);
     }
     return true;
   }
@@ -156,7 +155,7 @@ struct Hill::Impl {
   static void drop_tail(std::vector<ComplexMatrix>& of) {
     double largest = 0;
     for (const auto& each : of) largest = std::max(largest, each.norm());
-    while (!of.empty() && of.back().norm() <= negligible * largest) of.pop_back();
+    while (!of.empty() && of.back().norm() <= negligible_coefficient * largest) of.pop_back();
   }
 
   // z_k of (w, w') for k >= 0, as z_(-k) is its conjugate: a row for each start.
@@ -167,7 +166,7 @@ struct Hill::Impl {
     v = w;
     w[0].topRows(n).setIdentity();
     v[0].bottomRows(n).setIdentity();
-    const int steps = static_cast<int>(std::ceil(span * rate / longest));
+    const int steps = static_cast<int>(std::ceil(span * rate / longest_in_series));
     const double h = span / steps;
     for (int step = 0; step < steps; ++step) {
       if (go_on && !go_on()) return false;
@@ -176,13 +175,13 @@ struct Hill::Impl {
       double size = 0;
       for (const auto& each : w) size += each.cwiseAbs().sum();
       for (const auto& each : v) size += each.cwiseAbs().sum();
-      for (int j = 1; j < most_terms; ++j) {
+      for (int j = 1; j < most_hill_terms; ++j) {
         const double last = next_term(h / j);
         for (std::size_t k = 0; k < count; ++k) {
           w[k] += term_w[k];
           v[k] += term_v[k];
         }
-        if (!(last > left_out * size)) break;
+        if (!(last > last_term_left_out * size)) break;
       }
     }
     return true;
@@ -200,7 +199,7 @@ struct Hill::Impl {
       next_v[i] = -factor * (shift * term_v[i] + term_w[i] * (over_mass_K.transpose() / (omega * omega)) +
                              term_v[i] * (over_mass_C.transpose() / omega));
     }
-    for (const Law& law : laws) {
+    for (const HillLaw& law : laws) {
       add(law, law.T, term_w, factor / (omega * omega));
       add(law, law.B, term_v, factor / omega);
     }
@@ -214,7 +213,7 @@ struct Hill::Impl {
   }
 
   // next_v_k -= sum_l D_M T_(k-l) D^T of_l.
-  void add(const Law& law, const std::vector<ComplexMatrix>& T, const std::vector<ComplexMatrix>& of,
+  void add(const HillLaw& law, const std::vector<ComplexMatrix>& T, const std::vector<ComplexMatrix>& of,
            double factor) {
     if (T.empty()) return;
     const int count = static_cast<int>(of.size()), reach = static_cast<int>(T.size()) - 1;
@@ -259,7 +258,7 @@ struct Hill::Impl {
   }
 
   const EquationOfMotion equation;
-  std::vector<Law> laws;
+  std::vector<HillLaw> laws;
   Matrix over_mass_K, over_mass_C;
   double fastest_mode = 0;  // rad/s, without elements
 

@@ -7,9 +7,9 @@
 namespace arcslip::time {
 namespace {
 
-constexpr double settled = 2e-15;  // of x, over the largest g
-constexpr double neutral = 1e-13;  // contraction of the map that is rounding
-constexpr int most_iterations = 100;
+constexpr double settled_memory = 2e-15;       // of x, over the largest g
+constexpr double neutral_contraction = 1e-13;  // contraction of the map that is rounding
+constexpr int most_periodic_iterations = 100;
 constexpr std::size_t most_kept = 4;  // harmonics
 
 }  // namespace
@@ -34,16 +34,16 @@ double HysteresisCourse::around(double x, double& by_x) {
 // The fixed point, between -1 and 1: around(x) - x falls.
 double HysteresisCourse::periodic(double guess, double scale) {
   double low = -1, high = 1, x = guess, last = 2;
-  for (int i = 0; i < most_iterations; ++i) {
+  for (int i = 0; i < most_periodic_iterations; ++i) {
     double by_x = 0;
     const double excess = around(x, by_x) - x;
-    if (std::abs(excess) <= settled * scale || 1 - by_x < neutral) break;
+    if (std::abs(excess) <= settled_memory * scale || 1 - by_x < neutral_contraction) break;
     (excess > 0 ? low : high) = x;
     double next = x + excess / (1 - by_x);
     // Newton's method, as long as it halves the excess.
     if (!(next >= low && next <= high) || !(std::abs(excess) <= 0.5 * last)) next = 0.5 * (low + high);
     last = std::abs(excess);
-    if (std::abs(next - x) <= settled * scale) break;
+    if (std::abs(next - x) <= settled_memory * scale) break;
     x = next;
   }
   return x;

@@ -7,11 +7,11 @@ namespace arcslip::time {
 namespace {
 
 constexpr double first_length = 0.25;
-constexpr double shortest = 1e-12;  // cell, in g, at x = 0
-constexpr double growth = 1.6;      // of a cell by the one before
-constexpr double resolved = 4e-15;  // last coefficients of dx over a cell
-constexpr double settled = 4e-16;   // x
-constexpr int most_iterations = 40;
+constexpr double shortest_cell = 1e-12;  // cell, in g, at x = 0
+constexpr double cell_growth = 1.6;      // of a cell by the one before
+constexpr double resolved_cell = 4e-15;  // last coefficients of dx over a cell
+constexpr double settled_curve = 4e-16;  // x
+constexpr int most_curve_iterations = 40;
 constexpr std::size_t most_cells = 10000;
 
 }  // namespace
@@ -40,13 +40,13 @@ bool HysteresisCurve::solve(const LegendreFit& fit, double sign, Cell& cell) con
     next.array() += cell.x;
     const double change = (next - x).cwiseAbs().maxCoeff();
     x = next;
-    if (change <= settled * x[nodes - 1]) break;
-    if (i == most_iterations) return false;
+    if (change <= settled_curve * x[nodes - 1]) break;
+    if (i == most_curve_iterations) return false;
   }
   const Vector b = fit.by_values * r;
   const Vector by_s = fit.powers.transpose() * b;
   for (int j = 0; j < nodes; ++j) cell.by_s[static_cast<std::size_t>(j)] = by_s[j];
-  return cell.length * b.tail(2).cwiseAbs().sum() <= resolved;
+  return cell.length * b.tail(2).cwiseAbs().sum() <= resolved_cell;
 }
 
 HysteresisCurve::Side HysteresisCurve::tabulate(double sign) const {
@@ -56,12 +56,12 @@ HysteresisCurve::Side HysteresisCurve::tabulate(double sign) const {
   while (x < 1 && rate(sign * x) >= at_bound && side.cells.size() < most_cells) {
     Cell cell{side.end, length, x, {}};
     const bool solved = solve(fit, sign, cell);
-    if (!solved && length > shortest) {
+    if (!solved && length > shortest_cell) {
       length *= 0.5;
       continue;
     }
     const double end = cell.x_at(1);
-    if (sign < 0 && end > 1 + settled) {
+    if (sign < 0 && end > 1 + settled_curve) {
       // x comes to -1, and faster on the way: the chord ends before.
       length *= (1 - x) / (end - x);
       continue;
@@ -69,8 +69,8 @@ HysteresisCurve::Side HysteresisCurve::tabulate(double sign) const {
     side.cells.push_back(cell);
     side.end += length;
     x = end;
-    if (1 - x <= settled) break;
-    length *= growth;
+    if (1 - x <= settled_curve) break;
+    length *= cell_growth;
   }
   return side;
 }
@@ -100,14 +100,14 @@ double HysteresisCurve::g(double x) const {
                                       [](double value, const Cell& of) { return value < of.x; });
   const Cell& cell = *std::prev(after);
   double low = 0, high = 1, s = (size - cell.x) / (cell.x_at(1) - cell.x);
-  for (int i = 0; i < most_iterations && s > 0 && s < 1; ++i) {
+  for (int i = 0; i < most_curve_iterations && s > 0 && s < 1; ++i) {
     const double excess = cell.x_at(s) - size;
     (excess > 0 ? high : low) = s;
     double next = s - excess / (cell.length * cell.rate_at(s));
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
     const double change = std::abs(next - s);
     s = next;
-    if (change <= settled * s) break;
+    if (change <= settled_curve * s) break;
   }
   return sign * (cell.g + cell.length * std::clamp(s, 0.0, 1.0));
 }

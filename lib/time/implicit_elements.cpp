@@ -11,9 +11,9 @@ namespace arcslip::time {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr double rounding = 8;     // a residual of as many roundings of its terms is zero
-constexpr double stagnated = 1e3;  // as many are, where no step makes them fewer
-constexpr double flat = 0.5;       // of the slope that a search begins with: low enough
+constexpr double residual_roundings = 8;  // a residual of as many roundings of its terms is zero
+constexpr double stagnated = 1e3;         // as many are, where no step makes them fewer
+constexpr double flat = 0.5;              // of the slope that a search begins with: low enough
 constexpr int largest_bisections = 60, largest_halvings = 10;
 
 }  // namespace
@@ -212,7 +212,7 @@ Solved ImplicitElements::solve(const Vector& b, Vector& y) {
   for (int i = 0; i < largest_iterations; ++i) {
     const double size = residual(y);
     if (!std::isfinite(size)) return Solved::not_finite;
-    if (size <= rounding || (size <= stagnated && size > flat * last)) {
+    if (size <= residual_roundings || (size <= stagnated && size > flat * last)) {
       dq_.noalias() = D_.transpose() * y;
       for (std::size_t e = 0; e < elements_.size(); ++e)
         dz_.segment(elements_[e].memory, ends_[e].dz.size()) = ends_[e].dz;

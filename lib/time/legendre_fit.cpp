@@ -6,7 +6,7 @@
 namespace arcslip::time {
 namespace {
 
-constexpr int newton_steps = 20;
+constexpr int node_newton_steps = 20;
 
 using Real = long double;
 
@@ -29,7 +29,7 @@ LegendreFit::LegendreFit(int nodes_count)
       integral(Matrix::Zero(count, count)) {
   for (int i = 0; i < count; ++i) {
     Real x = -std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5)), slope = 1;
-    for (int k = 0; k < newton_steps; ++k) {
+    for (int k = 0; k < node_newton_steps; ++k) {
       const auto P = legendre(count, x);
       slope = count * (x * P[count] - P[count - 1]) / (x * x - 1);
       x -= P[count] / slope;

@@ -11,8 +11,8 @@
 namespace arcslip::time {
 namespace {
 
-constexpr double long_term = 5e7;   // multiplications by the stiffness in a term of the series: some 20 ms
-constexpr double massless = 1e-13;  // smallest eigenvalue of M scaled to a unit diagonal
+constexpr double long_term = 5e7;  // multiplications by the stiffness in a term of the series: some 20 ms
+constexpr double singular_mass = 1e-13;  // smallest eigenvalue of M scaled to a unit diagonal
 
 void require_mass(const EquationOfMotion& equation) {
   const auto fail = [&](Eigen::Index i) {
@@ -27,7 +27,7 @@ void require_mass(const EquationOfMotion& equation) {
     if (!(diagonal[i] > 0)) fail(i);
   const Vector scale = diagonal.cwiseSqrt().cwiseInverse();
   const Matrix scaled = scale.asDiagonal() * equation.M * scale.asDiagonal();
-  if (continuation::symmetric_eigenvalues(scaled)[0] > massless) return;
+  if (continuation::symmetric_eigenvalues(scaled)[0] > singular_mass) return;
   Eigen::Index i = 0;
   (scale.asDiagonal() * continuation::symmetric_modes(scaled).V.col(0)).cwiseAbs().maxCoeff(&i);
   fail(i);

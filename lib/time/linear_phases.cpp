@@ -11,13 +11,12 @@
 namespace arcslip::time {
 namespace {
 
-constexpr double symmetric = 1e-14;       // skew part of a stiffness, relative
-constexpr double diagonal = 1e-14;        // couplings of modes by damping, relative
-constexpr double most_parallel = 1e5;     // condition of the planes' basis
-constexpr double small_turn = 0.1;        // rad^2: below, by series
-constexpr double fastest_turns = 1e12;    // beyond, nothing is left of a motion's phase
-constexpr double slow = 1e-3;             // of the fastest: a motion without a frequency of its own
-constexpr Eigen::Index least_modes = 10;  // with inertia
+constexpr double negligible_skew = 1e-14;      // skew part of a stiffness, relative
+constexpr double negligible_coupling = 1e-14;  // couplings of modes by damping, relative
+constexpr double most_parallel = 1e5;          // condition of the planes' basis
+constexpr double small_turn = 0.1;             // rad^2: below, by series
+constexpr double slow = 1e-3;                  // of the fastest: a motion without a frequency of its own
+constexpr Eigen::Index least_modes = 10;       // with inertia
 constexpr std::size_t most_numbers = std::size_t{1} << 23;  // in phases kept
 
 }  // namespace
@@ -183,8 +182,8 @@ void LinearPhases::decompose(Phase& phase) const {
   const Matrix damping = found ? Matrix(U.transpose() * damping_ * U) : Matrix();
   Matrix coupling = damping;
   if (found) coupling.diagonal().setZero();
-  if (found && (phase.K - even).cwiseAbs().maxCoeff() <= symmetric * size &&
-      coupling.cwiseAbs().maxCoeff() <= diagonal * damping.cwiseAbs().maxCoeff()) {
+  if (found && (phase.K - even).cwiseAbs().maxCoeff() <= negligible_skew * size &&
+      coupling.cwiseAbs().maxCoeff() <= negligible_coupling * damping.cwiseAbs().maxCoeff()) {
     for (Eigen::Index j = 0; j < n; ++j) phase.oscillators.push_back({0.5 * damping(j, j), squares[j]});
     phase.to_modes = U.transpose();
     phase.from_modes = U;

@@ -39,6 +39,9 @@
 
 namespace arcslip::time {
 
+/// rad: of the fastest motion in a period. Beyond, nothing is left of its phase.
+inline constexpr double fastest_turns = 1e12;
+
 /// An automaton: where it acts, and its modes. memory: number of its dz; -1: none.
 struct PhasePart {
   Matrix directions;  // dofs x directions

@@ -11,11 +11,8 @@
 namespace arcslip::time {
 namespace {
 
-// Of a sum of size 1 after all the operations behind it.
-constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-
-constexpr long between_questions = 16;  // whether to go on, in pieces,
-constexpr double long_piece = 1e7;      // and before each of more multiplications: some 10 ms
+constexpr long pieces_per_question = 16;  // whether to go on, in pieces,
+constexpr double long_piece = 1e7;        // and before each of more multiplications: some 10 ms
 
 std::vector<Contact> contacts_of(const EquationOfMotion& equation) {
   std::vector<Contact> contacts;
@@ -153,7 +150,7 @@ bool March::find(double to) {
   if (!X_.allFinite() || !V_.allFinite()) reason_ = EndReason::not_finite;
   const double multiplications =
       2.0 * LinearMotion::order * static_cast<double>(X_.rows()) * static_cast<double>(X_.size());
-  const bool asks = multiplications > long_piece || pieces_ % between_questions == 0;
+  const bool asks = multiplications > long_piece || pieces_ % pieces_per_question == 0;
   if (asks && limits_.stop && limits_.stop()) reason_ = EndReason::stopped;
   if (reason_ != EndReason::reached) return false;
   end_ = std::min(t_ + linear_.longest(), to);
@@ -197,7 +194,7 @@ void March::locate() {
         if (guard.v.size() > 0) add(guard.v[at], velocity_[k], &LinearMotion::velocity, contact.along[k]);
       }
       guard_[0] += offset;
-      const auto s = first_fall(guard_, rounding * size);
+      const auto s = first_fall(guard_, sum_rounding * size);
       if (!s || (event_ && *s >= s_)) continue;
       s_ = *s;
       switching_ = i;

@@ -11,8 +11,8 @@
 namespace arcslip::time {
 namespace {
 
-constexpr double massless = 1e-13;  // of the largest mass over stiffness
-constexpr double damped = 1e-12;    // of a motion without mass, relative to the largest damper
+constexpr double massless_share = 1e-13;  // of the largest mass over stiffness
+constexpr double damped = 1e-12;          // of a motion without mass, relative to the largest damper
 
 std::string name_of(const EquationOfMotion& equation, Eigen::Index dof) {
   const auto i = static_cast<std::size_t>(dof);
@@ -38,7 +38,7 @@ std::shared_ptr<const NaturalModes> natural_modes(const EquationOfMotion& equati
   if (stop && stop()) return nullptr;
   Eigen::Index none = 0;
   if (by_mass.values.size() == M.rows())
-    while (none < M.rows() && by_mass.values[none] * shift <= massless) ++none;
+    while (none < M.rows() && by_mass.values[none] * shift <= massless_share) ++none;
   if (by_mass.values.size() == M.rows() && none > 0) {
     found.without_mass = by_mass.V.leftCols(none);
     const auto acts = [](const Matrix& A, const auto& motion) {

@@ -10,7 +10,8 @@
 namespace arcslip::time {
 namespace {
 
-constexpr double negligible = 1e-13;  // a mass or damping, relative to those of its degrees of freedom
+// A mass or damping, relative to those of its degrees of freedom.
+constexpr double negligible_inertia = 1e-13;
 
 // An orthonormal basis of S w = 0, S the symmetric part of A and positive semidefinite: where there is no
 // mass, damping is symmetric.
@@ -20,7 +21,8 @@ Matrix null_space(const Matrix& A) {
   for (double& s : scale) s = s > 0 ? 1 / std::sqrt(s) : 1;
   const auto modes = continuation::symmetric_modes(scale.asDiagonal() * S * scale.asDiagonal());
   Eigen::Index count = 0;
-  while (count < S.rows() && modes.values[count] <= negligible * static_cast<double>(S.rows())) ++count;
+  while (count < S.rows() && modes.values[count] <= negligible_inertia * static_cast<double>(S.rows()))
+    ++count;
   if (count == 0) return Matrix(S.rows(), 0);
   return continuation::orthonormal_columns(scale.asDiagonal() * modes.V.leftCols(count));
 }

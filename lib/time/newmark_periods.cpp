@@ -10,12 +10,12 @@
 namespace arcslip::time {
 namespace {
 
-constexpr long between_questions = 4096;  // steps
+constexpr long steps_per_question = 4096;  // whether to go on
 
 // The extremes of a displacement over steps, with those within a step at which its velocity turns.
-class Range {
+class DisplacementRange {
  public:
-  Range(double x, double v) : lowest(x), highest(x), x_(x), v_(v) {}
+  DisplacementRange(double x, double v) : lowest(x), highest(x), x_(x), v_(v) {}
   void step(double x, double v, double h) {
     include(x);
     if (v_ * v < 0) include(x_ + 0.5 * v_ * h * v_ / (v_ - v));
@@ -36,7 +36,7 @@ auto normal_of(const TimeElement& element) {
   return element.directions.col(element.directions.cols() - 1);
 }
 
-Range range_of(const Newmark& newmark) {
+DisplacementRange response_range(const Newmark& newmark) {
   const auto at = newmark.equation().observed(newmark.time(), newmark.state().x, newmark.state().v);
   return {at.x, at.v};
 }
@@ -45,7 +45,7 @@ Range range_of(const Newmark& newmark) {
 class Observation {
  public:
   Observation(const Newmark& newmark, bool with_history, long steps)
-      : newmark_(newmark), with_history_(with_history), response_(range_of(newmark)) {
+      : newmark_(newmark), with_history_(with_history), response_(response_range(newmark)) {
     const auto& equation = newmark.equation();
     for (const TimeElement& element : equation.elements) {
       if (element.law->has_contact()) result_.friction.emplace_back();
@@ -64,7 +64,7 @@ class Observation {
     const double h = equation.period() / static_cast<double>(newmark_.steps_per_period());
     const auto [x, v] = equation.observed(newmark_.time(), newmark_.state().x, newmark_.state().v);
     response_.step(x, v, h);
-    const auto step = [&](Range& range, const auto& d) {
+    const auto step = [&](DisplacementRange& range, const auto& d) {
       range.step(d.dot(newmark_.state().x), d.dot(newmark_.state().v), h);
     };
     std::size_t k = 0;
@@ -89,7 +89,7 @@ class Observation {
       if (!element.law->has_contact()) continue;
       FrictionShare& share = result_.friction[k++];
       if (!element.law->has_normal_load()) continue;
-      const Range& range = normal_[load++];
+      const DisplacementRange& range = normal_[load++];
       std::tie(share.load_min, share.load_max) =
           std::minmax({element.law->normal_load_at(element.fields, range.lowest),
                        element.law->normal_load_at(element.fields, range.highest)});
@@ -143,8 +143,8 @@ class Observation {
 
   const Newmark& newmark_;
   bool with_history_;
-  Range response_;
-  std::vector<Range> normal_;  // of each contact whose normal load varies
+  DisplacementRange response_;
+  std::vector<DisplacementRange> normal_;  // of each contact whose normal load varies
   PeriodMotion result_;
 };
 
@@ -183,7 +183,7 @@ PeriodMotion newmark_periods(Newmark& newmark, const MotionState& start, long co
   while (solved == Solved::yes && newmark.step_number() < steps && !stopped) {
     solved = newmark.step();
     if (solved == Solved::yes) observation.after_step();
-    stopped = stop && newmark.step_number() % between_questions == 0 && stop();
+    stopped = stop && newmark.step_number() % steps_per_question == 0 && stop();
   }
   PeriodMotion result = observation.end();
   std::tie(result.failure, result.message) = failure_of(solved, newmark.time());

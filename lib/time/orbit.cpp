@@ -11,7 +11,7 @@ namespace arcslip::time {
 namespace {
 
 // The bounds of a slider over the period, and where it went.
-struct Range {
+struct SliderRange {
   bool up = false, down = false;
   double high = -INFINITY, low = INFINITY;  // of the lower and of the upper bound
   Eigen::RowVectorXd dhigh, dlow;
@@ -20,16 +20,16 @@ struct Range {
   bool resting() const { return !(up && down); }
 };
 
-class Ranges {
+class SliderRanges {
  public:
-  explicit Ranges(const March& march) : march_(march), ranges_(march.contacts().size()) {}
+  explicit SliderRanges(const March& march) : march_(march), ranges_(march.contacts().size()) {}
 
   void piece() {
     const auto& contacts = march_.contacts();
     const LinearMotion& piece = march_.piece();
     for (std::size_t i = 0; i < contacts.size() && march_.s() > 0; ++i) {
       if (contacts[i].slider < 0) continue;
-      Range& range = ranges_[i];
+      SliderRange& range = ranges_[i];
       if (contacts[i].follows()) {
         range.up = range.up || contacts[i].mode().way >= 0;
         range.down = range.down || contacts[i].mode().way <= 0;
@@ -56,7 +56,7 @@ class Ranges {
   std::vector<RestingSlider> resting() const {
     std::vector<RestingSlider> all;
     for (std::size_t i = 0; i < ranges_.size(); ++i) {
-      const Range& range = ranges_[i];
+      const SliderRange& range = ranges_[i];
       if (!range.resting() || range.dhigh.size() == 0) continue;
       const Contact& contact = march_.contacts()[i];
       const Eigen::Index rest = range.dhigh.size() - 1;
@@ -68,7 +68,7 @@ class Ranges {
 
  private:
   const March& march_;
-  std::vector<Range> ranges_;
+  std::vector<SliderRange> ranges_;
   Extremes extremes_;
 };
 
@@ -129,7 +129,7 @@ class Phases {
 
 PeriodMap EventDriven::map(const MotionState& start, double to) {
   march_->begin(start, 0, Columns::start);
-  Ranges ranges(*march_);
+  SliderRanges ranges(*march_);
   PeriodMap map;
   while (march_->find(to)) {
     map.size = std::max(map.size, march_->size());
@@ -147,7 +147,7 @@ PeriodMap EventDriven::map(const MotionState& start, double to) {
 Orbit EventDriven::orbit(const MotionState& start, const EquationRates* by) {
   const double period = equation_.period();
   march_->begin(start, 0, by ? Columns::start : Columns::motion, by);
-  Ranges ranges(*march_);
+  SliderRanges ranges(*march_);
   Phases phases(*march_);
   Extremes extremes;
   Orbit orbit;

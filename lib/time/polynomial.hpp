@@ -6,6 +6,7 @@
 // where they differ in sign and g is monotone, |g'| > M h/2 in the middle; else it is halved. What is left
 // out are pairs of changes between which |g| is below rounding, eps sum |c_k| b^k.
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,6 +14,9 @@
 namespace arcslip::time {
 
 using Coefficients = std::span<const double>;
+
+/// Of a sum of size 1 after all the operations behind it: for first_fall().
+inline constexpr double sum_rounding = 64 * std::numeric_limits<double>::epsilon();
 
 /// g(s).
 double value(Coefficients c, double s);

@@ -12,14 +12,14 @@
 namespace arcslip::time {
 namespace {
 
-constexpr long first_trial = 2;                  // periods; the next ones at twice as many
-constexpr int newton_steps = 8, most_maps = 12;  // of a trial
-constexpr double neutral = 1e-6;                 // |multiplier| above 1 by less: not unstable
-constexpr double decaying = 1e-10;               // below 1 by more
-constexpr double beside = 1e-3;                  // an unstable motion, relative: it is being left
-constexpr double at = 1e-6;                      // an unstable motion: it has to be left
-constexpr double disturbance = 1e-6;             // relative
-constexpr double same = 1e-7;                    // states, relative
+constexpr long first_trial = 2;                        // periods; the next ones at twice as many
+constexpr int trial_newton_steps = 8, most_maps = 12;  // of a trial
+constexpr double neutral_growth = 1e-6;                // |multiplier| above 1 by less: not unstable
+constexpr double decaying = 1e-10;                     // below 1 by more
+constexpr double near_unstable = 1e-3;                 // an unstable motion, relative: it is being left
+constexpr double on_unstable = 1e-6;                   // an unstable motion: it has to be left
+constexpr double disturbance = 1e-6;                   // relative
+constexpr double same_state = 1e-7;                    // states, relative
 constexpr int most_doublings = 60;
 
 Vector scaled(const MotionState& state, double omega) {
@@ -136,9 +136,9 @@ class Settling {
       const Vector after = scaled(last_[0], omega_) - to;
       const Vector before = scaled(last_[static_cast<std::size_t>(m)], omega_) - to;
       const double size = std::max(to.norm(), 1e-300);
-      if (found->largest() > 1 + neutral) {
-        if (after.norm() > beside * size) continue;
-        if (after.norm() <= at * size) disturb(*found);
+      if (found->largest() > 1 + neutral_growth) {
+        if (after.norm() > near_unstable * size) continue;
+        if (after.norm() <= on_unstable * size) disturb(*found);
         return false;
       }
       const bool there = std::max(before.norm(), after.norm()) <= options_.tolerance * size;
@@ -155,7 +155,7 @@ class Settling {
     };
     ShootingOptions options;
     options.transients = 0;
-    options.iterations = newton_steps;
+    options.iterations = trial_newton_steps;
     options.tolerance = std::min(options_.tolerance, 1e-6);
     ShootingResult shot = shoot(flow, start, omega_, options);
     if (!shot.converged()) return std::nullopt;
@@ -195,7 +195,7 @@ class Settling {
       PeriodMotion period = integrate_(state, 1, false);
       if (!period.done()) return fail(period);
       state = std::move(period.end);
-      if (m % d != 0 || change_of(found.state, state, omega_) > same) continue;
+      if (m % d != 0 || change_of(found.state, state, omega_) > same_state) continue;
       if (std::optional<Found> shorter = periodic(found.state, d)) {
         found = std::move(*shorter);
         m = d;

@@ -11,9 +11,9 @@
 namespace arcslip::time {
 namespace {
 
-constexpr double neutral = 1e-10;  // |multiplier| above 1 by less is rounding
+constexpr double multiplier_rounding = 1e-10;  // |multiplier| above 1 by less is rounding
 constexpr double at_rounding = 16 * std::numeric_limits<double>::epsilon();
-constexpr double singular = 64 * std::numeric_limits<double>::epsilon();
+constexpr double singular_step = 64 * std::numeric_limits<double>::epsilon();
 constexpr double least_step = 1.0 / 32;
 
 class Shooting {
@@ -78,7 +78,7 @@ class Shooting {
     defect_by_start(result_.map, J);
     J = -(scale_.cwiseInverse().asDiagonal() * J * scale_.asDiagonal());
     const Vector defect = defect_.cwiseQuotient(scale_);
-    const double smallest = singular * std::max(1.0, (Matrix::Identity(J.rows(), J.cols()) - J).norm());
+    const double smallest = singular_step * std::max(1.0, (Matrix::Identity(J.rows(), J.cols()) - J).norm());
     const double largest = J.colwise().norm().maxCoeff();
     const double threshold = largest > smallest ? smallest / largest : 1.0;
     const Vector step = continuation::shortest_least_squares(J, defect, threshold).X;
@@ -131,7 +131,8 @@ class Shooting {
 
   void multipliers() {
     result_.multipliers = multipliers_of(result_.map);
-    result_.stable = result_.multipliers.empty() || std::abs(result_.multipliers.front()) < 1 - neutral;
+    result_.stable =
+        result_.multipliers.empty() || std::abs(result_.multipliers.front()) < 1 - multiplier_rounding;
   }
 
   const Flow& flow_;

@@ -8,16 +8,16 @@
 namespace arcslip::time {
 namespace {
 
-constexpr std::size_t most_terms = 64;
-constexpr double longest = 2;       // rad of the fastest motion, in one series
-constexpr int few = 4;              // series in a row cost less than halving and squaring
-constexpr double left_out = 1e-17;  // by the first term that is left out, relative
+constexpr std::size_t most_exponential_terms = 64;
+constexpr double longest_exponent = 2;         // rad of the fastest motion, in one series
+constexpr int few_series = 4;                  // series in a row cost less than halving and squaring
+constexpr double first_term_left_out = 1e-17;  // by the first term that is left out, relative
 
 // The first k with x^k/k! below left_out.
 std::size_t terms_of(double x) {
   double term = 1;
   std::size_t k = 0;
-  while (term > left_out && k < most_terms) term *= x / static_cast<double>(++k);
+  while (term > first_term_left_out && k < most_exponential_terms) term *= x / static_cast<double>(++k);
   return std::max<std::size_t>(k, 2);
 }
 
@@ -57,8 +57,8 @@ void Variation::set(const Matrix& K, const Matrix& C, const Matrix& G) {
 void Variation::move(double h, double fastest, std::vector<Variable>& variables, Matrix& W, Matrix& V) {
   if (!(h > 0)) return;
   if (!variables.empty()) return series(h, terms_of(h, fastest, variables), G_, variables, W, V);
-  const double pieces = std::max(1.0, std::ceil(h * fastest / longest));
-  if (pieces > few) return squared(h, fastest, std::ilogb(pieces) + 1, W, V);
+  const double pieces = std::max(1.0, std::ceil(h * fastest / longest_exponent));
+  if (pieces > few_series) return squared(h, fastest, std::ilogb(pieces) + 1, W, V);
   for (int i = 0; i < static_cast<int>(pieces); ++i)
     series(h / pieces, time::terms_of(h * fastest / pieces), G_, variables, W, V);
 }
@@ -125,7 +125,7 @@ std::size_t Variation::terms_of(double h, double fastest, const std::vector<Vari
     return all;
   };
   std::size_t small = 0;
-  for (std::size_t k = 0; small <= by_w_.size() && k + 1 < most_terms; ++k) {
+  for (std::size_t k = 0; small <= by_w_.size() && k + 1 < most_exponential_terms; ++k) {
     const double factor = h / static_cast<double>(k + 1);
     const double v = fastest * fastest / rate * size_w_[k] + sum(by_w_, size_w_) / rate +
                      sum(by_v_, size_v_) + sum(by_y_, size_y_) / rate;
@@ -133,7 +133,7 @@ std::size_t Variation::terms_of(double h, double fastest, const std::vector<Vari
     size_w_.push_back(factor * rate * size_v_[k]);
     size_v_.push_back(factor * v);
     size_y_.push_back(factor * y);
-    small = std::max({size_w_.back(), size_v_.back(), size_y_.back()}) > left_out ? 0 : small + 1;
+    small = std::max({size_w_.back(), size_v_.back(), size_y_.back()}) > first_term_left_out ? 0 : small + 1;
   }
   return std::max<std::size_t>(size_w_.size() - small, 2);
 }

@@ -7,15 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace arcslip::time {
 namespace {
 
-constexpr double beside_end = 1.0 / 1024;  // of a piece
-constexpr double negligible = 1e-13;       // coefficient, by the largest one
-
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double beside_end = 1.0 / 1024;     // of a piece
+constexpr double negligible_varying = 1e-13;  // coefficient, by the largest one
 
 const elements::Hysteresis* hysteresis_of(const elements::Law& law) {
   return dynamic_cast<const elements::Hysteresis*>(&law);
@@ -72,7 +69,7 @@ bool VaryingCoefficients::follow(double omega, double fastest, const elements::H
     if (!law.course.follow(harmonics, elements[static_cast<std::size_t>(law.index)].q.col(0))) return false;
     const auto& turns = law.course.turns();
     for (std::size_t k = 0; k < turns.size(); ++k)
-      for (double theta = turns[k].theta; theta < turn; theta += harmonics.span())
+      for (double theta = turns[k].theta; theta < elements::whole_turn; theta += harmonics.span())
         changes_.push_back({theta, law.variable, k});
     breaks_.insert(breaks_.end(), law.course.breaks().begin(), law.course.breaks().end());
   }
@@ -184,7 +181,7 @@ void VaryingCoefficients::set(Smooth& law, Piece& piece) {
 VaryingCoefficients::Values VaryingCoefficients::coefficients(const Values& at_nodes, double& last) const {
   Values b = by_values_ * at_nodes;
   last = std::max(last, b.tail<2>().cwiseAbs().sum());
-  const double least = negligible * b.cwiseAbs().maxCoeff();
+  const double least = negligible_varying * b.cwiseAbs().maxCoeff();
   for (int l = nodes - 1; l > 0 && std::abs(b[l]) <= least; --l) b[l] = 0;
   return powers_ * b;
 }

@@ -12,7 +12,6 @@ namespace {
 using continuation::Matrix;
 using Kind = Inequality::Kind;
 
-constexpr double higher = 1e-7;    // of ln A: a peak above the active ones
 constexpr double violated = 1e-7;  // of multipliers and of y
 
 struct Multiplier {
@@ -74,7 +73,7 @@ std::vector<Inequality> inequalities(const ActiveSet& active) {
 }
 
 bool exchange(ActiveSet& active, const OptimalityEvaluator& at) {
-  if (at.highest_other() && at.distance_of_others() < -higher) {
+  if (at.highest_other() && at.distance_of_others() < -higher_peak) {
     active.peaks.push_back(*at.highest_other());
     return true;
   }

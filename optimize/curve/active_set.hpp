@@ -8,6 +8,8 @@
 
 namespace arcslip::optimize {
 
+inline constexpr double higher_peak = 1e-7;  // of ln A: a peak above the active ones
+
 /// The inequalities that may become active or inactive along a curve with this active set: the bounds of all
 /// parameters and, if there are several, the active peaks. Other peaks may join.
 std::vector<Inequality> inequalities(const ActiveSet& active);

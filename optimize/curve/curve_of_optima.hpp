@@ -20,6 +20,8 @@ namespace arcslip::optimize {
 
 using continuation::text;
 
+inline constexpr double u_turn = -0.9;  // cosine of the tangents before and after
+
 /// At a point of a piece.
 struct Seen {
   OptimumPoint point;

@@ -14,24 +14,22 @@ namespace {
 using observables::Status;
 using Kind = Inequality::Kind;
 
-constexpr double higher = 1e-7;         // of ln A: a peak above the active ones
-constexpr double least_between = 0.02;  // the same, where the way is gone again
-constexpr double u_turn = -0.9;         // cosine of the tangents before and after
+constexpr double least_between = 0.02;  // of ln A: the same, where the way is gone again
 constexpr double probe = 1e-4;          // of z and sigma: how an inequality changes along a piece
-constexpr std::array<double, 5> beyond = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2};  // of the end of a piece
-constexpr double progress = 1e-5;                                         // of y and sigma
-constexpr int most_idle = 60;
+constexpr std::array<double, 5> distances_beyond = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2};  // of the end of a piece
+constexpr double least_progress = 1e-5;                                             // of y and sigma
+constexpr int most_idle_pieces = 60;
 
 }  // namespace
 
 void CurveOfOptima::guard() {
-  if (!mark_ || distance(*mark_, curve_.points.back()) > progress) {
+  if (!mark_ || distance(*mark_, curve_.points.back()) > least_progress) {
     mark_ = curve_.points.back();
     idle_ = 0;
-  } else if (++idle_ == most_idle) {
+  } else if (++idle_ == most_idle_pieces) {
     end(Status::stopped, reasons::no_progress,
-        text("at ", place(here_.sigma), " ", most_idle, " consecutive pieces of the curve lie within ",
-             progress, " of each other in the logarithms"));
+        text("at ", place(here_.sigma), " ", most_idle_pieces, " consecutive pieces of the curve lie within ",
+             least_progress, " of each other in the logarithms"));
   } else if (!watch_.go_on()) {
     end_interrupted();
   }
@@ -127,7 +125,7 @@ void CurveOfOptima::verify() {
   rewound_ = false;
   const PeakState& state = peaks_.trace(here_.design);
   const double level = here_.peaks.empty() ? 0 : here_.peaks[0].amplitude;
-  if (!(state.amplitude() <= (1 + higher) * level)) {
+  if (!(state.amplitude() <= (1 + higher_peak) * level)) {
     interval_ /= 2;
     if (interval_ >= least_between && safe_) {
       go_back();
@@ -183,7 +181,7 @@ void CurveOfOptima::lost(const continuation::BranchStop& stop) {
   if (ended_ || rewound_) return;
   const Standing last = here_;
   flat_.clear();
-  for (const double by : beyond)
+  for (const double by : distances_beyond)
     for (const int way : {1, -1})
       if (goes_on(last, by, way)) {
         step_ = 0;

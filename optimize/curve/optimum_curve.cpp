@@ -21,7 +21,6 @@ constexpr double nearly_as_high = 1e-3;  // relative: peaks that may be active a
 constexpr double nearly_bound = 1e-6;    // of y
 constexpr int most_exchanges = 20;       // of the active set at the first optimum
 constexpr double flat_slope = 1e-5;      // d ln A / dsigma of less: an extreme over s
-constexpr double u_turn = -0.9;          // cosine of the tangents before and after
 constexpr double smallest_step = 1e-8;   // relative to 1 + |z|: the equations hold to 1e-11
 constexpr double same_point = 1e-9;      // of y and sigma
 

@@ -13,12 +13,12 @@ using continuation::Matrix;
 using continuation::Needs;
 
 constexpr int most_corrections = 20;
-constexpr double corrected = 1e-11;         // relative: the last correction of z
-constexpr double largest_correction = 0.5;  // of y and tau
-constexpr double same_frequency = 0.02;     // relative
-constexpr double beside = 1e-2;             // of y: where an amplitude is compared with that at a minimum
-constexpr double no_change = 1e-10;         // of A, relative
-constexpr double no_weight = 1e-9;          // of a peak beside one that is flat and as high
+constexpr double corrected = 1e-11;           // relative: the last correction of z
+constexpr double largest_correction = 0.5;    // of y and tau
+constexpr double same_frequency = 0.02;       // relative
+constexpr double comparison_distance = 1e-2;  // of y: where an amplitude is compared with that at a minimum
+constexpr double no_change = 1e-10;           // of A, relative
+constexpr double no_weight = 1e-9;            // of a peak beside one that is flat and as high
 
 // [E_z E_sigma; row^T]
 Matrix bordered(const OptimalityEvaluator& at, const Vector& row) {
@@ -155,7 +155,7 @@ OptimalitySetting::Moved OptimalitySetting::hold_flat(ActiveSet& active, std::ve
       design[k] = scaled[k].value(scaled[k].scaled(own) + step);
       return peaks.trace(design).amplitude() > (1 + no_change) * before;
     };
-    if (!higher_beside(-beside) || !higher_beside(beside)) {
+    if (!higher_beside(-comparison_distance) || !higher_beside(comparison_distance)) {
       result.flat = k;
       return result;
     }

@@ -11,10 +11,9 @@ namespace arcslip::optimize {
 using continuation::text;
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-std::string text_of(const std::vector<double>& x) {
+std::string list_of(const std::vector<double>& x) {
   std::string list;
   for (double xi : x) list += text(list.empty() ? "" : ", ", xi);
   return "(" + list + ")";
@@ -94,7 +93,7 @@ double Run::call(std::size_t k, const Function& function, std::span<const double
 
 // Checks the result of function k.
 void Run::take(std::size_t k, std::span<const double> x, std::span<const double> gradient, double value) {
-  if (k == 0 && value == infinity && worst_ > -infinity) return;  // outside the domain, but not at the start
+  if (k == 0 && value == HUGE_VAL && worst_ > -HUGE_VAL) return;  // outside the domain, but not at the start
   const auto odd =
       std::find_if_not(gradient.begin(), gradient.end(), [](double g) { return std::isfinite(g); });
   if (!std::isfinite(value)) {
@@ -132,14 +131,14 @@ void Run::keep_if_best() {
 
 void Run::report(std::span<const double> x, double value) {
   if (!options_.progress) return;
-  const double best = best_excess_ == 0 ? best_value_ : infinity;
+  const double best = best_excess_ == 0 ? best_value_ : HUGE_VAL;
   if (!options_.progress({evaluations_, x, value, best})) interrupt(MinimizeReason::user);
 }
 
 // The value passed to an algorithm for an infinite objective: above all others, but finite, since algorithms
 // fit models to it.
 double Run::barrier() const noexcept {
-  if (worst_ == -infinity) return 0;
+  if (worst_ == -HUGE_VAL) return 0;
   const double spread = best_value_ < worst_ ? worst_ - best_value_ : 0;
   const double above = std::max(std::abs(worst_), spread);
   return worst_ + (above > 0 ? above : 1);
@@ -177,7 +176,7 @@ std::string Run::blamed_name() const {
 std::string Run::message(const MinimizeResult& r) const {
   const std::string excess = r.feasible ? "" : text(", where a constraint is exceeded by ", best_excess_);
   const std::string best = r.x.empty() ? "; no evaluation succeeded"
-                                       : text("; the best value is ", r.value, " at ", text_of(r.x), excess);
+                                       : text("; the best value is ", r.value, " at ", list_of(r.x), excess);
   if (r.reason == MinimizeReason::evaluation_limit) return r.cause + best;
   return r.cause + text(" after ", r.evaluations, r.evaluations == 1 ? " evaluation" : " evaluations", best);
 }

@@ -9,7 +9,7 @@ namespace {
 constexpr double as_good = 1e-13;               // relative: values that differ by rounding
 constexpr double as_good_within_limits = 1e-7;  // the same, and by what the tolerance of a limit gains
 constexpr double settled_share = 0.1;           // of the tolerances of a minimum: where a refinement ends
-constexpr int most_idle = 100;                  // calls at known designs, one after the other
+constexpr int most_idle_calls = 100;            // calls at known designs, one after the other
 constexpr std::size_t patience = 25;            // evaluations without a gain, for each parameter and one more
 
 }  // namespace
@@ -46,7 +46,7 @@ Convergence::Ends Convergence::test() {
   if (settled && settings_.refinement) return Ends::settles;
   const bool in_vain =
       settings_.limited && !settings_.global && count() - gained_ > patience * (1 + settings_.parameters);
-  return idle_ == most_idle || in_vain ? Ends::idles : Ends::no;
+  return idle_ == most_idle_calls || in_vain ? Ends::idles : Ends::no;
 }
 
 bool Convergence::is_settled() {

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::array<double, 7> diagonal = {0.5, 0.25, 0.75, 0.125, 0.875, 0, 1};  // shares of the bounds
 constexpr int samples_of_all = 8, samples_of_each = 8;                             // parameter
-constexpr double as_active = 1e-6;  // relative: a linear limit that is nearer is active
 constexpr const char* linear_name = "a linear limit";
 
 // Whether the responses tell the mean force that a contact may hold.

@@ -13,6 +13,7 @@
 namespace arcslip::optimize {
 
 inline constexpr double limit_tolerance = 1e-8;  // of limits, relative
+inline constexpr double as_active = 1e-6;        // relative: a limit that is nearer is active
 
 class DesignSpace {
  public:

@@ -4,6 +4,7 @@
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
 #include <arcslip/optimize/search/design_space.hpp>
+#include <arcslip/optimize/search/multipliers.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 
 #include <algorithm>
@@ -16,8 +17,7 @@ namespace arcslip::optimize {
 using continuation::text;
 namespace {
 
-constexpr double as_high = 1e-6;  // relative: no other peak is higher
-constexpr double least = 0.3;     // of the highest peak: lower ones are not followed
+constexpr double least_peak = 0.3;  // of the highest peak: lower ones are not followed
 
 // Of the curves of the result. Where another peak is higher at one, a sentence about it.
 std::string least_minimum(const scene::Scene& scene, const OptimumProblem& problem, const DesignSpace& space,
@@ -59,7 +59,7 @@ std::vector<observables::ResponseBranch> curves_of_peaks(const scene::Scene& sce
   if (has_sampled_friction(scene)) return {};
   const DesignVariable& over = problem.over.front();
   return observables::high_resonance_peaks(
-      scene, {over.name, over.lower, over.upper, problem.frequency_from, problem.frequency_to}, least,
+      scene, {over.name, over.lower, over.upper, problem.frequency_from, problem.frequency_to}, least_peak,
       progress);
 }
 

@@ -16,7 +16,6 @@ namespace {
 constexpr int spare_peaks = 3;       // that may come up during a round, in each case
 constexpr double least_level = -60;  // of ln V/V_0
 constexpr double beyond_all = 60;    // ln V/V_0 where it is infinite
-constexpr double as_active = 1e-6;   // of limits on observables, relative: one that is nearer is active
 
 }  // namespace
 

@@ -10,7 +10,6 @@
 namespace arcslip::optimize {
 namespace {
 
-constexpr double as_high = 1e-6;      // relative: a peak nearer to the highest is active
 constexpr double on_bound = 1e-9;     // of the range of y
 constexpr double no_descent = 1e-12;  // of |G|^2: a multiplier that would gain less stays 0
 constexpr int steps_per_column = 20;  // far more than there are: guards against cycling by rounding
@@ -91,9 +90,9 @@ Eigen::VectorXd least_combination(const Eigen::MatrixXd& G, const std::vector<st
     std::size_t best = n;
     double most = -no_descent * G.squaredNorm();
     for (std::size_t i = 0; i < n; ++i) {
-      const double gain = slope[static_cast<Eigen::Index>(i)] - level[group[i]];
-      if (is_free[i] || gain >= most) continue;
-      most = gain;
+      const double descent = slope[static_cast<Eigen::Index>(i)] - level[group[i]];
+      if (is_free[i] || descent >= most) continue;
+      most = descent;
       best = i;
     }
     if (best == n) break;

@@ -18,6 +18,8 @@
 
 namespace arcslip::optimize {
 
+inline constexpr double as_high = 1e-6;  // relative: a peak that is nearer to the highest is as high
+
 struct ActivePeak {
   std::size_t in_case, peak;  // of the cases, and of its state
   double multiplier = 0;

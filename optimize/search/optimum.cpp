@@ -22,7 +22,6 @@ namespace {
 using observables::Status;
 using Ends = Convergence::Ends;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double seen_before = 1e-8;  // relative: a response higher by more than this has an unwatched peak
 constexpr int most_rounds = 12;
 constexpr std::size_t most_retreats = 12;                  // designs evaluated again, for each distance
@@ -279,7 +278,7 @@ bool Search::release() {
   // At the onset of slip the limits that hold without slip still hold, but perhaps not a limit on the energy
   // at its maximum. From far outside, a search may return to where everything sticks.
   std::optional<std::vector<double>> from;
-  double least = infinity;
+  double least = HUGE_VAL;
   for (const std::vector<double>& design : designs) {
     designs_.evaluate(design, true);
     const double excess = designs_.formulation().excess();
@@ -306,7 +305,7 @@ bool Search::add_worst_scatter() {
   const std::vector<Scenario> worse = designs_.worse_scatter();
   if (interrupted() || worse.empty()) return false;
   for (const Scenario& each : worse) designs_.add(each);
-  stuck_value_ = infinity;
+  stuck_value_ = HUGE_VAL;
   if (result_.scatter_rounds < options_.scatter_rounds) return true;
   designs_.evaluate(start_);
   result_.status = Status::stopped;

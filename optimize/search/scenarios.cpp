@@ -27,7 +27,7 @@ scene::Scene with_case(scene::Scene scene, const LoadCase& each) {
   return scene;
 }
 
-void check(const LoadCase& each, const scene::Scene& scene, const OptimumProblem& problem) {
+void check_case(const LoadCase& each, const scene::Scene& scene, const OptimumProblem& problem) {
   if (!(each.weight > 0 && std::isfinite(each.weight)))
     throw OptionsError(text("the weight of a case is ", each.weight, ", must be above 0"));
   for (const auto& [name, value] : each.set) {
@@ -53,7 +53,7 @@ void check(const LoadCase& each, const scene::Scene& scene, const OptimumProblem
 
 Scenarios::Scenarios(const scene::Scene& scene, const OptimumProblem& problem, const DesignSpace& space)
     : scene_(scene), problem_(problem), space_(space), cases_(problem.cases) {
-  for (const LoadCase& each : cases_) check(each, scene, problem);
+  for (const LoadCase& each : cases_) check_case(each, scene, problem);
   if (cases_.empty()) cases_.emplace_back();
   const double unit = scene::to_rad_per_s(scene.frequency_unit);
   window_ = {problem.frequency_from * unit, problem.frequency_to * unit};

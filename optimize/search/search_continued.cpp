@@ -19,16 +19,15 @@ namespace {
 
 using observables::Status;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_restarts = 5;
-constexpr double beyond = 1e-4, jumps = 1e-2;  // of y; of V, relative
-constexpr double limit_jumps = 2e-3;           // of a limit, relative
-constexpr double limit_bends = 1e-6;           // the same: far above what curvature makes of it so near
-constexpr double active = 1e-6;                // relative: as high as the highest case
-constexpr std::size_t most_starts = 8;         // elsewhere
-constexpr std::size_t most_by_cobyla = 5;      // of them, the lowest
-constexpr double apart = 0.1;        // of the range of a variable: designs that are worth two searches
-constexpr double same_level = 1e-9;  // of amplitudes, relative: both are where nothing slips at the peak
+constexpr double step_beyond = 1e-4, jumps = 1e-2;  // of y; of V, relative
+constexpr double limit_jumps = 2e-3;                // of a limit, relative
+constexpr double limit_bends = 1e-6;                // the same: far above what curvature makes of it so near
+constexpr double active_case = 1e-6;                // relative: as high as the highest case
+constexpr std::size_t most_starts = 8;              // elsewhere
+constexpr std::size_t most_by_cobyla = 5;           // of them, the lowest
+constexpr double apart = 0.1;             // of the range of a variable: designs that are worth two searches
+constexpr double same_idle_level = 1e-9;  // of amplitudes, relative: both are where nothing slips at the peak
 
 // Algorithms that continue where another one ended at no minimum. CCSAQ descends from the feasible side by
 // conservative approximations (Svanberg 2002), slowly at the end; SLSQP is fast nearby.
@@ -75,7 +74,7 @@ bool Search::stand_at_best() {
 
 void Search::go_from(const std::vector<double>& design) {
   start_ = design;
-  stuck_value_ = infinity;
+  stuck_value_ = HUGE_VAL;
   refinements_ = 0;
   algorithm_ = asked_;
 }
@@ -105,7 +104,7 @@ bool Search::refine(const Balance& left) {
 std::string Search::jump(const Balance& left) {
   std::vector<double> y = space().scaled(best().design);
   for (std::size_t k = 0; k < y.size(); ++k)
-    y[k] -= beyond * left.left[static_cast<Eigen::Index>(k)] / left.stationarity;
+    y[k] -= step_beyond * left.left[static_cast<Eigen::Index>(k)] / left.stationarity;
   const std::vector<double> design = space().design(y);
   cases().trace(design, observables::Steps::curve);
   const std::string there = "; a little beyond, at " + space().text(design) + ", ";
@@ -190,7 +189,7 @@ bool Search::look_elsewhere() {
   designs_.begin("the search elsewhere");
   const std::vector<double> here = best().design;
   const bool within = best().excess == 0;
-  double least = within ? (1 - gain) * best().value : infinity;
+  double least = within ? (1 - gain) * best().value : HUGE_VAL;
   const std::vector<Beginning> all = beginnings(within);
   std::vector<double> lower;
   if (within && best().value < least) {
@@ -235,7 +234,7 @@ std::vector<std::vector<double>> Search::lowest_elsewhere() {
   for (const Evaluation& each : found) {
     const bool near = std::any_of(chosen.begin(), chosen.end(), [&](const Evaluation& other) {
       return space().distance(each.design, other.design) < apart ||
-             std::abs(each.amplitude / other.amplitude - 1) < same_level;
+             std::abs(each.amplitude / other.amplitude - 1) < same_idle_level;
     });
     if (!near && chosen.size() <= most_starts) chosen.push_back(each);
   }
@@ -285,7 +284,7 @@ void Search::describe() {
   if (!cases().stand_at(best().design)) {  // interrupted elsewhere
     for (std::size_t c = 0; c < result_.cases.size(); ++c)
       result_.cases[c].active =
-          cases().groups() > 1 || cases().weight(c) * result_.cases[c].amplitude >= (1 - active) * most;
+          cases().groups() > 1 || cases().weight(c) * result_.cases[c].amplitude >= (1 - active_case) * most;
     return;
   }
   for (const ActivePeak& peak : balance_here(designs_).active) {

@@ -1,5 +1,6 @@
 #include <arcslip/optimize/search/start.hpp>
 
+#include <arcslip/optimize/search/multipliers.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
 
 #include <algorithm>
@@ -8,14 +9,14 @@
 namespace arcslip::optimize {
 namespace {
 
-constexpr double no_influence = 1e-12;  // d ln A / d ln p of less is none
+constexpr double no_sensitivity = 1e-12;  // d ln A / d ln p of less is none
 
 bool is_flat(const LoadCases& cases, std::size_t c) {
   const PeakState& state = cases.state(c);
   const Peak& highest = state.peaks[state.highest];
   for (std::size_t k = 0; k < state.design.size(); ++k)
     if (std::abs(highest.gradient[static_cast<Eigen::Index>(k)] * state.design[k]) >
-        no_influence * highest.amplitude)
+        no_sensitivity * highest.amplitude)
       return false;
   const auto point = cases.peaks(c).observe(highest);
   return std::all_of(point.elements.begin(), point.elements.end(),
@@ -62,13 +63,11 @@ SearchStart find_start(DesignEvaluations& designs, const std::vector<double>& gi
 
 namespace {
 
-constexpr double as_high = 1e-6;  // relative: a peak nearer to the highest is one of them
-
 bool moves_highest(const PeakState& state, std::size_t k) {
   return std::any_of(state.peaks.begin(), state.peaks.end(), [&](const Peak& peak) {
     return peak.amplitude >= (1 - as_high) * state.amplitude() &&
            std::abs(peak.gradient[static_cast<Eigen::Index>(k)] * state.design[k]) >
-               no_influence * peak.amplitude;
+               no_sensitivity * peak.amplitude;
   });
 }
 

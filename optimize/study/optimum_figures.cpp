@@ -162,7 +162,7 @@ void add_criterion(const scene::Scene& scene, const OptimumResult& result, CaseL
   of_criterion.bands = bands(result.optimum);
 }
 
-void add(results::FigureData data, const std::string& name, std::vector<results::FigureData>& all) {
+void add_figure(results::FigureData data, const std::string& name, std::vector<results::FigureData>& all) {
   if (data.lines.empty()) return;
   data.name = name;
   all.push_back(std::move(data));
@@ -184,9 +184,10 @@ void add_cases(const scene::Scene& scene, const OptimumResult& result, const std
       for (results::Figure& figure : peaks.figures)
         if (figure.y == amplitude) figure.y_label = "peak " + peaks.columns[amplitude].label;
     }
-    add(std::move(peaks), name, all);
+    add_figure(std::move(peaks), name, all);
   }
-  add(lines_of_cases(scene, studies::BranchKind::responses, result, &CaseCurves::responses, false).data,
+  add_figure(
+      lines_of_cases(scene, studies::BranchKind::responses, result, &CaseCurves::responses, false).data,
       name.empty() ? "responses" : name + "_responses", all);
 }
 
@@ -211,8 +212,8 @@ std::vector<results::FigureData> figures_of(const scene::Scene& scene,
   }
   results::FigureData peaks = studies::figures_of(scene, studies::BranchKind::peaks, curves);
   add_tolerances(scene, results, peaks);
-  add(std::move(peaks), "", all);
-  add(studies::figures_of(scene, studies::BranchKind::responses, responses), "responses", all);
+  add_figure(std::move(peaks), "", all);
+  add_figure(studies::figures_of(scene, studies::BranchKind::responses, responses), "responses", all);
   return all;
 }
 

@@ -37,12 +37,12 @@ Object places_at_bounds(const OptimumProblem& problem, const std::vector<int>& a
 }
 
 // All of a response but its amplitude, which is said of what it belongs to.
-TableOf<ResponsePoint> responses(const scene::Scene& scene) {
+TableOf<ResponsePoint> response_table(const scene::Scene& scene) {
   return studies::responses(scene, {.amplitude = false});
 }
 
 void add_response(const scene::Scene& scene, const ResponsePoint& response, Object& all) {
-  const TableOf<ResponsePoint> table = responses(scene);
+  const TableOf<ResponsePoint> table = response_table(scene);
   for (results::Member& member : results::object(table.columns(), table.rows(std::vector{response}), 0))
     all.push_back(std::move(member));
 }
@@ -94,11 +94,11 @@ TableOf<LoadCaseResult> cases(const scene::Scene& scene, const OptimumProblem& p
   table.add({"multiplier"}, "", "Lagrange multiplier",
             [](const LoadCaseResult& at) { return at.multiplier; });
   table.add({"amplitude"}, "m", "without the weight", [](const LoadCaseResult& at) { return at.amplitude; });
-  table.add(responses(scene), [](const LoadCaseResult& at) { return &at.point; });
+  table.add(response_table(scene), [](const LoadCaseResult& at) { return &at.point; });
   return table;
 }
 
-Value optimum(const scene::Scene& scene, const OptimumResult& result) {
+Value optimum_value(const scene::Scene& scene, const OptimumResult& result) {
   const Optimum& found = result.optimum;
   if (found.design.empty() || !std::isfinite(found.amplitude)) return {};
   Object all = named(scene, result.problem, found.design);
@@ -193,7 +193,7 @@ Value::List texts(const std::vector<std::string>& all) {
 
 Object facts(const scene::Scene& scene, const OptimumResult& result) {
   const Optimum& found = result.optimum;
-  Object all{{"optimum", optimum(scene, result)}};
+  Object all{{"optimum", optimum_value(scene, result)}};
   if (result.has_cases()) all.push_back({"criterion", name(result.problem.criterion)});
   if (!result.problem.scatter.empty()) all.push_back({"scatter_rounds", found.scatter_rounds});
   all.insert(all.end(), {{"algorithm", found.algorithm},
@@ -241,7 +241,7 @@ TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumProblem& pr
                 return k < at.at_bound.size() ? std::optional(place_at_bound(at.at_bound[k])) : std::nullopt;
               });
   table.add({"minimum"}, "", "false: a saddle", [](const OptimumPoint& at) { return at.minimum; });
-  table.add(responses(scene), [](const OptimumPoint& at) { return &at.response; });
+  table.add(response_table(scene), [](const OptimumPoint& at) { return &at.response; });
   return table;
 }
 

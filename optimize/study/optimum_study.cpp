@@ -28,9 +28,9 @@ double rounded(double value) {
 }
 
 // The frequency responses at a multiple of the optimum, if the parameters may have it.
-std::vector<observables::ResponseBranch> responses(scene::Scene scene, const OptimumProblem& problem,
-                                                   const std::vector<double>& design, double factor,
-                                                   const observables::ProgressCallback& progress) {
+std::vector<observables::ResponseBranch> responses_at_multiple(
+    scene::Scene scene, const OptimumProblem& problem, const std::vector<double>& design, double factor,
+    const observables::ProgressCallback& progress) {
   std::vector<std::pair<std::string, double>> set;
   try {
     for (std::size_t k = 0; k < design.size(); ++k) {
@@ -105,7 +105,7 @@ std::vector<CaseCurves> curves_of_cases(const scene::Scene& scene, const Optimum
     const scene::Scene in_case =
         curves.all_places ? with_values(scene, each) : scene_of(scene, problem, each);
     if (problem.over.size() == 1) curves.peaks = curves_of_peaks(in_case, problem, progress);
-    curves.responses = responses(in_case, problem, optimum.design, 1, progress);
+    curves.responses = responses_at_multiple(in_case, problem, optimum.design, 1, progress);
     all.push_back(std::move(curves));
   }
   return all;
@@ -178,7 +178,7 @@ void add_curves(OptimumResult& result, const scene::Scene& with, const OptimumEx
   begin("the responses at the optimum");
   for (const double factor : around)
     if (!result.has_cases() && bounded && (factor == 1 || extent.alone) && watch.go_on()) {
-      auto more = responses(with, result.problem, result.optimum.design, factor, ask);
+      auto more = responses_at_multiple(with, result.problem, result.optimum.design, factor, ask);
       std::move(more.begin(), more.end(), std::back_inserter(result.responses));
     }
 }

@@ -88,7 +88,7 @@ std::string place(const scene::Scene& scene, const observables::ResponsePoint& p
   return text;
 }
 
-void write_cases(std::ostream& out, const scene::Scene& scene, const OptimumResult& result) {
+void print_cases(std::ostream& out, const scene::Scene& scene, const OptimumResult& result) {
   const bool mean = result.problem.criterion == Criterion::mean;
   const auto& cases = result.optimum.cases;
   for (std::size_t c = 0; c < std::min(cases.size(), most_cases); ++c)
@@ -214,7 +214,7 @@ std::string text_of(const scene::Scene& scene, const OptimumResult& result) {
     out << "  " << name(result.problem.criterion) << " of " << found.cases.size()
         << (found.cases.size() == 1 ? " case = " : " cases = ")
         << number(found.amplitude, estimate_of(found.cases), "%.8e") << " m\n";
-    write_cases(out, scene, result);
+    print_cases(out, scene, result);
   } else {
     out << "  A_max = " << at_point(found.amplitude, found.point) << " at "
         << place(scene, found.point, std::numeric_limits<std::size_t>::max(), relative_design_error(found))

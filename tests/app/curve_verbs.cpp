@@ -1,6 +1,7 @@
 // The verbs over a parameter or an amplitude: peaks, trace, folds, modes.
 
 #include "catch.hpp"
+#include "environment.hpp"
 #include "program.hpp"
 
 #include <nlohmann/json.hpp>
@@ -75,7 +76,7 @@ TEST_CASE("trace goes to the exact response at another load") {
 
 TEST_CASE("folds begins at the folds that are known in closed form") {
   const Workplace place;
-  std::filesystem::copy_file(ARCSLIP_SOURCE_DIR "/examples/duffing/scene.json", place / "duffing.json");
+  std::filesystem::copy_file(source_folder() + "/examples/duffing/scene.json", place / "duffing.json");
   const Ended ended = run(place, {"folds", "duffing.json", "--set", "c.value=0.1", "--set",
                                   "hardening.stiffness=1", "--harmonics", "1", "--over", "force.cosine",
                                   "--from", "0.1", "--to", "0.2", "--frequency", "0.5", "2", "--json", "-"});
@@ -92,7 +93,7 @@ TEST_CASE("folds begins at the folds that are known in closed form") {
 
 TEST_CASE("with one harmonic the folds of examples/duffing_jenkins are those of its describing function") {
   const Workplace place;  // the numbers: continuation.json, "duffing_jenkins_1harmonic"
-  std::filesystem::copy_file(ARCSLIP_SOURCE_DIR "/examples/duffing_jenkins/scene.json", place / "dj.json");
+  std::filesystem::copy_file(source_folder() + "/examples/duffing_jenkins/scene.json", place / "dj.json");
   const auto events = [&](const std::string& verb) {
     const Ended ended = run(place, {verb, "dj.json", "--harmonics", "1", "--json", "-"});
     CHECK(ended.exit_code == 0);

@@ -1,6 +1,7 @@
 // arcslip optimize, and studies of kind "optimum".
 
 #include "catch.hpp"
+#include "environment.hpp"
 #include "program.hpp"
 #include "size.hpp"
 
@@ -114,7 +115,7 @@ TEST_CASE("a study of kind optimum runs with the others, with files and figures"
 
 TEST_CASE("the progress of a search tells its phase, its evaluations and the least amplitude so far") {
   const Workplace place;
-  std::ifstream two_dampers(ARCSLIP_SOURCE_DIR "/examples/two_dampers/scene.json");
+  std::ifstream two_dampers(source_folder() + "/examples/two_dampers/scene.json");
   Json scene = Json::parse(two_dampers);
   scene["studies"] = {scene["studies"][1]};  // with a limit, so that designs elsewhere are searched from, too
   place.write("scene.json", scene.dump());

@@ -20,7 +20,7 @@ Json study_of_levels() {
     "cases": [{"set": {"force.cosine": 1}}, {"set": {"force.cosine": 2}, "weight": 0.5}]})");
 }
 
-Json scene_with(const Workplace& place, const std::vector<Json>& studies) {
+Json scene_with_studies(const Workplace& place, const std::vector<Json>& studies) {
   Json scene = Json::parse(place.read("scene.json"));
   scene["harmonics"]["order"] = 5;
   scene["studies"] = studies;
@@ -44,7 +44,7 @@ double highest(const Workplace& place, double load, double force) {
 
 TEST_CASE("the worst of two levels is least where both are equally high, in responses of their own") {
   const Workplace place;
-  place.write("scene.json", scene_with(place, {study_of_levels()}).dump());
+  place.write("scene.json", scene_with_studies(place, {study_of_levels()}).dump());
   const Ended ended = run(place, {"optimize", "scene.json", "--json", "-", "--quiet"});
   CAPTURE(ended.err);
   REQUIRE(ended.exit_code == 0);
@@ -73,7 +73,7 @@ TEST_CASE("the worst of two levels is least where both are equally high, in resp
 
 TEST_CASE("optimize --criterion mean finds the least mean of the levels") {
   const Workplace place;
-  place.write("scene.json", scene_with(place, {study_of_levels()}).dump());
+  place.write("scene.json", scene_with_studies(place, {study_of_levels()}).dump());
   const Ended ended = run(place, {"optimize", "scene.json", "--criterion", "mean", "--json", "-", "--quiet"});
   REQUIRE(ended.exit_code == 0);
   const Json found = Json::parse(ended.out)["optima"][0];
@@ -88,7 +88,7 @@ TEST_CASE("optimize --criterion mean finds the least mean of the levels") {
 
 TEST_CASE("the table and the CSV tell every case") {
   const Workplace place;
-  place.write("scene.json", scene_with(place, {study_of_levels()}).dump());
+  place.write("scene.json", scene_with_studies(place, {study_of_levels()}).dump());
   const Ended ended = run(place, {"optimize", "scene.json", "--csv", "a.csv", "--quiet"});
   REQUIRE(ended.exit_code == 0);
   for (const char* part : {"  worst of 2 cases = ", "    force.cosine = 1 N: ", "    force.cosine = 2 N: ",
@@ -106,7 +106,7 @@ TEST_CASE("the table and the CSV tell every case") {
 
 TEST_CASE("a --set of a parameter of the cases takes the place of their values") {
   const Workplace place;
-  place.write("scene.json", scene_with(place, {study_of_levels()}).dump());
+  place.write("scene.json", scene_with_studies(place, {study_of_levels()}).dump());
   const Ended ended =
       run(place, {"optimize", "scene.json", "--set", "force.cosine=2", "--json", "-", "--quiet"});
   REQUIRE(ended.exit_code == 0);
@@ -122,7 +122,7 @@ TEST_CASE("the option --over of an uncertain parameter removes it from scatter")
   Json study = study_of_levels();
   study.erase("cases");
   study["scatter"] = {{"damper.stiffness", {3000, 4000}}, {"damper.friction_coefficient", {0.4, 0.6}}};
-  place.write("scene.json", scene_with(place, {study}).dump());
+  place.write("scene.json", scene_with_studies(place, {study}).dump());
   const Ended ended = run(place, {"optimize", "scene.json", "--over", "damper.normal_load", "--over",
                                   "damper.stiffness=3000:4000", "--json", "-", "--quiet"});
   REQUIRE(ended.exit_code == 0);
@@ -140,7 +140,7 @@ TEST_CASE("cases of each level have figures of their own, with a line for each c
   const Workplace place;
   Json study = study_of_levels();
   study["for_each"] = {{"k.value", {17890, 18000}}};
-  place.write("scene.json", scene_with(place, {study}).dump());
+  place.write("scene.json", scene_with_studies(place, {study}).dump());
   const Ended ended =
       run(place, {"run", "scene.json", "--out", "out", "--quiet"}, {{"PATH", "/nonexistent"}});
   REQUIRE(ended.exit_code == 0);
@@ -163,7 +163,7 @@ TEST_CASE("figures of results that are no more do not stay beside those of fewer
   other["name"] = "levels_3";
   const auto run_with = [&](std::vector<double> values) {
     study["for_each"] = {{"k.value", std::move(values)}};
-    place.write("scene.json", scene_with(place, {other, study}).dump());
+    place.write("scene.json", scene_with_studies(place, {other, study}).dump());
     REQUIRE(
         run(place, {"run", "scene.json", "--out", "out", "--quiet"}, {{"PATH", "/nonexistent"}}).exit_code ==
         0);
@@ -223,7 +223,7 @@ TEST_CASE("an optimum and a curve of optima have tables of their own, and stand 
   for (Json* study : {&plain, &followed}) study->erase("cases");
   followed["name"] = "followed";
   followed.update({{"along", "force.cosine"}, {"from", 1}, {"to", 2}});
-  place.write("scene.json", scene_with(place, {plain, followed}).dump());
+  place.write("scene.json", scene_with_studies(place, {plain, followed}).dump());
   const Ended refused = run(place, {"run", "scene.json", "--csv", "a.csv"});
   CHECK(refused.exit_code == 1);
   CHECK(
@@ -285,7 +285,7 @@ TEST_CASE("a limit on a sum of parameters is met, and told, with what it costs")
     Json study = study_of_levels();
     study.erase("cases");
     study["constraints"] = {{{"sum", {{"damper.normal_load", 2}}}, {"at_most", limit}}};
-    place.write("scene.json", scene_with(place, {study}).dump());
+    place.write("scene.json", scene_with_studies(place, {study}).dump());
     const Ended ended = run(place, {"optimize", "scene.json", "--json", "a.json", "--quiet"});
     REQUIRE(ended.exit_code == 0);
     out = ended.out;

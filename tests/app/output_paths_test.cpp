@@ -37,9 +37,8 @@ std::string replaced(std::string text, const std::string& word, const std::strin
 /// Runs the script in the place, with what arcslip says in "err" and its exit code in "code". Without
 /// gnuplot.
 void run_script(const Workplace& place, const OutputPath& row, const Verb& verb) {
-  place.write("script", "cd '" + place.path() +
-                            "'\narcslip() { timeout 60 env PATH=/nonexistent '" ARCSLIP_PROGRAM
-                            "' \"$@\"; echo $? > code; }\n" +
+  place.write("script", "cd '" + place.path() + "'\narcslip() { timeout 60 env PATH=/nonexistent '" +
+                            arcslip_program() + "' \"$@\"; echo $? > code; }\n" +
                             replaced(row.script, "VERB", verb.name + " " + verb.arguments) + "\n");
   const std::string command = std::string(row.needs_mount ? "unshare -rm " : "") + "sh '" + place.path() +
                               "/script' > /dev/null 2> '" + place.path() + "/err'";

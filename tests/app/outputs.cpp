@@ -54,7 +54,7 @@ TEST_CASE("a full or closed standard output costs no file and no study") {
     const Workplace place;
     write_tiny_scene(place);
     const std::string command = std::string("cd '") + place.path() + "' && { PATH=/nonexistent '" +
-                                ARCSLIP_PROGRAM +
+                                arcslip_program() +
                                 "' run tiny.json --json a.json --csv a.csv --out results 2>err; "
                                 "echo $? >code; } " +
                                 screen;
@@ -164,7 +164,8 @@ TEST_CASE("a named pipe is opened once and gets all, and a scene may come from o
   REQUIRE(::mkfifo((place / "json.pipe").c_str(), 0600) == 0);
   const std::string command = std::string("cd '") + place.path() +
                               "' && { timeout 60 cat json.pipe > a.json & timeout 60 cat tiny.json > "
-                              "scene.pipe & timeout 60 '" ARCSLIP_PROGRAM
+                              "scene.pipe & timeout 60 '" +
+                              arcslip_program() +
                               "' frf scene.pipe --json json.pipe >/dev/null; echo $? > code; wait; }";
   CHECK(std::system(command.c_str()) == 0);
   CHECK(place.read("code") == "0\n");

@@ -1,4 +1,5 @@
 #include "program.hpp"
+#include "environment.hpp"
 
 #include <algorithm>
 #include <array>
@@ -46,7 +47,7 @@ std::string content(const fs::path& path) {
 }  // namespace
 
 Workplace::Workplace() : path_(temporary_folder()) {
-  fs::copy_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json", path_ / "scene.json");
+  fs::copy_file(source_folder() + "/examples/al_sayed_2011/scene.json", path_ / "scene.json");
 }
 
 Workplace::~Workplace() {
@@ -74,7 +75,7 @@ Program::Program(const Workplace& place, const std::vector<std::string>& argumen
                  const std::map<std::string, std::string>& environment, const std::string& output,
                  bool terminal)
     : streams_(temporary_folder()) {
-  std::vector<std::string> words{ARCSLIP_PROGRAM};
+  std::vector<std::string> words{arcslip_program()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

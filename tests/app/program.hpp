@@ -1,6 +1,8 @@
 #pragma once
 // The real program, run in a temporary folder.
 
+#include "environment.hpp"
+
 #include <filesystem>
 #include <map>
 #include <string>
@@ -9,6 +11,10 @@
 #include <sys/types.h>
 
 namespace app_test {
+
+inline std::string arcslip_program() {
+  return program_named("ARCSLIP_PROGRAM");
+}
 
 /// A new folder to run in, with the paper's scene as scene.json. It goes away by itself.
 class Workplace {

@@ -3,6 +3,7 @@
 
 #include "catch.hpp"
 #include "csv_text.hpp"
+#include "environment.hpp"
 #include "interruptions.hpp"
 #include "program.hpp"
 #include "random.hpp"
@@ -30,7 +31,7 @@ const std::string old_content = "as it was before\n";
 struct Run {
   explicit Run(const RandomInterruption& row, std::vector<std::string> more = {}) {
     Json scene;
-    std::ifstream(std::string(ARCSLIP_SOURCE_DIR "/examples/") + row.example) >> scene;
+    std::ifstream(source_folder() + "/examples/" + row.example) >> scene;
     if (!row.patch.empty()) scene.merge_patch(Json::parse(row.patch));
     place.write("scene.json", scene.dump(1));
     for (const std::string& file : row.files) {

@@ -20,8 +20,7 @@ using Json = nlohmann::json;
 TEST_CASE("a reader that goes away early leaves all files and an error, since it has not seen all") {
   const Workplace place;
   const std::string command =
-      std::string("cd '") + place.path() +
-      "' && { '" ARCSLIP_PROGRAM
+      std::string("cd '") + place.path() + "' && { '" + arcslip_program() +
       "' frf scene.json --harmonics 1 --json - --csv a.csv 2>err; echo $? >code; } | head -c 11 >out";
   CHECK(std::system(command.c_str()) == 0);
   CHECK(place.read("out") == "{\"format\": ");
@@ -48,8 +47,8 @@ TEST_CASE("two runs at once into one folder: the second one is told, and the fir
 
 TEST_CASE("a closed standard output is an error and no file takes its place") {
   const Workplace place;
-  const std::string command = std::string("cd '") + place.path() +
-                              "' && '" ARCSLIP_PROGRAM "' frf scene.json --harmonics 1 --csv a.csv >&- 2>err";
+  const std::string command = std::string("cd '") + place.path() + "' && '" + arcslip_program() +
+                              "' frf scene.json --harmonics 1 --csv a.csv >&- 2>err";
   const int status = std::system(command.c_str());
   CHECK(WEXITSTATUS(status) == 1);
   CHECK(place.read("err").find("cannot write standard output: Bad file descriptor") != std::string::npos);

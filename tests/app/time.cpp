@@ -1,6 +1,7 @@
 // arcslip time, and studies of kind "time".
 
 #include "catch.hpp"
+#include "environment.hpp"
 #include "program.hpp"
 
 #include <nlohmann/json.hpp>
@@ -74,7 +75,7 @@ TEST_CASE("each method of time comes to the same motion, as near as its steps al
 
 TEST_CASE("time takes Newmark's steps where a spring is cubic") {
   const Workplace place;
-  std::filesystem::copy_file(ARCSLIP_SOURCE_DIR "/examples/duffing/scene.json", place / "duffing.json");
+  std::filesystem::copy_file(source_folder() + "/examples/duffing/scene.json", place / "duffing.json");
   const Ended ended =
       run(place, {"time", "duffing.json", "--frequency", "0.9", "--steps", "4000", "--json", "-"});
   CHECK(ended.exit_code == 0);

@@ -1,5 +1,6 @@
 #include "catalogue.hpp"
 #include "catch.hpp"
+#include "environment.hpp"
 
 #include "continuation/hopf_problems.hpp"
 #include "lib/laws/coupled_spring.hpp"
@@ -61,7 +62,7 @@ TEST_CASE("a Newton iteration allocates nothing, up to 300 unknowns") {
   for (const char* friction : {"exact", "sampled"})
     for (int order : {1, 7, 55, 151, 299}) {
       scene::Scene scene =
-          scene::read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json", test_catalogue::whole());
+          scene::read_file(source_folder() + "/examples/al_sayed_2011/scene.json", test_catalogue::whole());
       scene.harmonics.order = order;
       scene.harmonics.samples = 2 * (2 * order + 2);
       if (std::string(friction) == "sampled") scene.harmonics.friction = scene::Friction::sampled;

@@ -22,7 +22,7 @@ Matrix numbers(Index rows, Index columns, double phase = 0) {
 }
 
 // K of a chain of n masses between two walls: 2 - 2 cos(k pi / (n + 1)).
-Matrix chain(Index n) {
+Matrix chain_stiffness(Index n) {
   Matrix K = 2 * Matrix::Identity(n, n);
   for (Index i = 0; i + 1 < n; ++i) K(i, i + 1) = K(i + 1, i) = -1;
   return K;
@@ -78,7 +78,7 @@ TEST_CASE("a singular matrix is solved where a solution exists") {
 }
 
 TEST_CASE("Cholesky's factors solve, reduce, and refuse what is not positive definite") {
-  const Matrix A = chain(6), B = numbers(6, 2);
+  const Matrix A = chain_stiffness(6), B = numbers(6, 2);
   Cholesky of;
   REQUIRE(of.factorize(A));
   CHECK((A * of.solve(B) - B).norm() < rounding * B.norm());
@@ -132,7 +132,7 @@ TEST_CASE("bases of columns, of their complement and of null spaces") {
 
 TEST_CASE("eigenvalues and singular values of chains, rotations and one with another") {
   const Index n = 12;
-  const Matrix K = chain(n);
+  const Matrix K = chain_stiffness(n);
   const SymmetricModes of_K = symmetric_modes(K);
   const SingularValues svd = singular_values(K);
   for (Index k = 0; k < n; ++k) {

@@ -11,7 +11,7 @@ namespace {
 constexpr double stiffness = 0.1, force = 0.18;
 
 // Duffing oscillator with one harmonic a cos + b sin, m = k = 1; parameter w.
-std::shared_ptr<const Problem> duffing(double damping, double width) {
+std::shared_ptr<const Problem> damped_duffing(double damping, double width) {
   return from_functions(
       2, {parameter("w", 0.5, width)},
       [=](In u, In p, Out F) {
@@ -44,8 +44,9 @@ TEST_CASE("a Duffing oscillator with damping down to 1e-6 has one peak and two f
       Options options = window(0.5, upper);
       options.step.largest_parameter = (upper - 0.5) / 150;
       options.step.relative_parameter = 0.05;
-      const Branch branch = trace(duffing(damping, upper - 0.5), {Vector{{0.24, 0.0}}, Vector{{0.5}}, 0, 1},
-                                  options, {amplitude_peak(), fold_monitor()});
+      const Branch branch =
+          trace(damped_duffing(damping, upper - 0.5), {Vector{{0.24, 0.0}}, Vector{{0.5}}, 0, 1}, options,
+                {amplitude_peak(), fold_monitor()});
       CAPTURE(damping, upper, branch.stop.message, branch.points.size());
       CHECK(branch.stop.reason == StopReason::boundary);
       const auto peaks = events_named(branch, "peak"), folds = events_named(branch, "fold");

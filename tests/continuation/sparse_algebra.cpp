@@ -20,7 +20,7 @@ using Sparse = ComplexSparseLU::Matrix;
 constexpr double least = 1e-14;
 
 /// A row of n masses, each linked to its neighbours, beyond resonances, with damping.
-Sparse chain(int n, Complex diagonal) {
+Sparse damped_chain(int n, Complex diagonal) {
   std::vector<Eigen::Triplet<Complex>> entries;
   for (int i = 0; i < n; ++i) {
     entries.emplace_back(i, i, diagonal);
@@ -39,7 +39,7 @@ Sparse chain(int n, Complex diagonal) {
 TEST_CASE("sparse complex LU solves as dense LU does, also where the diagonal is zero or small") {
   for (const int n : {1, 2, 40, 300})
     for (const Complex diagonal : {Complex(2, 0.1), Complex(1e-9, 1e-9), Complex(-1.3, 0.01)}) {
-      Sparse A = chain(n, diagonal);
+      Sparse A = damped_chain(n, diagonal);
       for (int i = 3; i + 20 < n; i += 7) A.coeffRef(i, i + 20) = Complex(0.3, 0.01 * i);
       A.makeCompressed();
       CAPTURE(n, diagonal);
@@ -61,7 +61,7 @@ TEST_CASE("sparse complex LU solves as dense LU does, also where the diagonal is
 }
 
 TEST_CASE("sparse complex LU tells a singular matrix, to the pivot that is asked for") {
-  Sparse A = chain(50, 2);
+  Sparse A = damped_chain(50, 2);
   A.coeffRef(20, 20) = 0;
   A.coeffRef(20, 19) = A.coeffRef(20, 21) = 0;  // a row of zeros, in the pattern
   ComplexSparseLU lu(A);
@@ -85,7 +85,7 @@ TEST_CASE("sparse complex LU tells a singular matrix whatever the order of its r
         Eigen::VectorXd unit(n);  // powers of 2: no rounding
         for (int i = 0; i < n; ++i) unit[i] = std::exp2(std::round(decades * std::sin(i) / std::log10(2)));
         const auto matrix = [&](double diagonal) {
-          const Sparse A = chain(n, diagonal);
+          const Sparse A = damped_chain(n, diagonal);
           std::vector<Eigen::Triplet<Complex>> entries;
           for (int j = 0; j < n; ++j)
             for (Sparse::InnerIterator entry(A, j); entry; ++entry)
@@ -105,7 +105,7 @@ TEST_CASE("sparse complex LU tells a singular matrix whatever the order of its r
 }
 
 TEST_CASE("a chain of n masses takes some n multiplications, not n^3") {
-  CHECK(ComplexSparseLU(chain(2000, 2)).multiplications() < 20 * 2000.0);
+  CHECK(ComplexSparseLU(damped_chain(2000, 2)).multiplications() < 20 * 2000.0);
   const int n = 60;
   const Sparse full = Eigen::MatrixXcd::Ones(n, n).sparseView();
   CHECK(ComplexSparseLU(full).multiplications() == Approx(n * n * n / 3.0).epsilon(0.1));

@@ -14,7 +14,7 @@ using namespace problems;
 namespace {
 
 // The Duffing oscillator by one harmonic. entry: of J by rows, 4 and 5: of dF/dw.
-std::shared_ptr<const Problem> duffing(int entry, double factor) {
+std::shared_ptr<const Problem> duffing_with_wrong_entry(int entry, double factor) {
   const double z = 0.05, a = 0.5, f = 0.3;
   const auto k_of = [=](In u, In p) { return 1 - p[0] * p[0] + 0.75 * a * u.squaredNorm(); };
   return from_functions(
@@ -47,7 +47,8 @@ std::string entry_name(int entry) {
 TEST_CASE("a wrong entry of J or dF/dp is named, from 0.1 %, and no trace runs on for nothing") {
   for (const double factor : {1.001, 1.01, 0.9, 1.1, 1.5, 0.5, -1.0})
     for (int entry = 0; entry < 6; ++entry) {
-      const Branch branch = trace(duffing(entry, factor), duffing_start, window(0.5, 2), {fold_monitor()});
+      const Branch branch =
+          trace(duffing_with_wrong_entry(entry, factor), duffing_start, window(0.5, 2), {fold_monitor()});
       CAPTURE(factor, entry, branch.stop.message, branch.counts.points, branch.counts.rejected_steps);
       REQUIRE(branch.warnings.size() == 1);
       CHECK(branch.warnings[0].find("the Jacobian is wrong: " + entry_name(entry)) == 0);
@@ -59,13 +60,14 @@ TEST_CASE("a wrong entry of J or dF/dp is named, from 0.1 %, and no trace runs o
 }
 
 TEST_CASE("a Jacobian that is right is not doubted") {
-  const Branch branch = trace(duffing(0, 1), duffing_start, window(0.5, 2), {fold_monitor()});
+  const Branch branch =
+      trace(duffing_with_wrong_entry(0, 1), duffing_start, window(0.5, 2), {fold_monitor()});
   CHECK(branch.stop.reason == StopReason::boundary);
   CHECK(branch.warnings.empty());
 }
 
 TEST_CASE("wrong_jacobian: a branch that gets no further for its Jacobian says so, with the numbers") {
-  const Branch branch = trace(duffing(2, 1.5), duffing_start, window(0.5, 2));
+  const Branch branch = trace(duffing_with_wrong_entry(2, 1.5), duffing_start, window(0.5, 2));
   CHECK(branch.stop.reason == StopReason::wrong_jacobian);
   CHECK(branch.stop.limit == largest_jacobian_error);
   CHECK(branch.stop.value == Approx(1.0 / 3).epsilon(1e-3));
@@ -201,6 +203,6 @@ TEST_CASE("curves of folds, whose Jacobians come from differences, are not doubt
 TEST_CASE("derivatives that are known to be right are not looked at where that is said") {
   Options options = window(0.5, 2);
   options.check_jacobian = false;
-  const Branch branch = trace(duffing(2, 1.001), duffing_start, options);
+  const Branch branch = trace(duffing_with_wrong_entry(2, 1.001), duffing_start, options);
   CHECK(branch.warnings.empty());
 }

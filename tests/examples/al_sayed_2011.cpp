@@ -8,6 +8,7 @@
 // and compares it: `is` to `within`, or `at_least` and `at_most`.
 
 #include "catch.hpp"
+#include "environment.hpp"
 
 #include <arcslip/output/process.hpp>
 
@@ -32,7 +33,7 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-const fs::path source = ARCSLIP_SOURCE_DIR;
+const fs::path source = source_folder();
 const fs::path scenes = source / "examples/al_sayed_2011";
 
 std::string text_of(const fs::path& path) {
@@ -53,7 +54,8 @@ class Made {
     fs::create_directories(folder);
     for (const auto& file : fs::directory_iterator(scenes / "figures"))
       if (file.path().extension() == ".gp") fs::copy(file, folder);
-    ended = arcslip::output::run_program(AL_SAYED_2011, {scenes.string(), folder.string()}, ".");
+    ended = arcslip::output::run_program(program_named("ARCSLIP_FIGURES"), {scenes.string(), folder.string()},
+                                         ".");
   }
   Made(const Made&) = delete;
   Made& operator=(const Made&) = delete;
@@ -239,7 +241,8 @@ TEST_CASE("a missing scene, study or friction element is named, and no figure is
   fs::create_directories(folder);
   const auto message = [&](const std::string& scene) {
     if (!scene.empty()) std::ofstream(folder / "contact.scene.json") << scene;
-    const auto ended = arcslip::output::run_program(AL_SAYED_2011, {folder.string(), folder.string()}, ".");
+    const auto ended = arcslip::output::run_program(program_named("ARCSLIP_FIGURES"),
+                                                    {folder.string(), folder.string()}, ".");
     CHECK(ended.exit_code == 1);
     CHECK(!fs::exists(folder / "figure_03.dat"));
     return ended.text;

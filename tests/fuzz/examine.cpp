@@ -1,4 +1,5 @@
 #include "fuzz/examine.hpp"
+#include "environment.hpp"
 
 #include "catalogue.hpp"
 #include "csv_text.hpp"
@@ -40,7 +41,7 @@ constexpr int most_points = 30, most_combinations = 4, highest_order = 5, most_s
 constexpr std::size_t most_dofs = 8, most_elements = 8;
 
 // Of the files that scenes name.
-const std::string folder = ARCSLIP_SOURCE_DIR "/tests/fuzz/corpus";
+const std::string folder = source_folder() + "/tests/fuzz/corpus";
 
 // What an engineer has never heard of.
 constexpr std::string_view internal_words[] = {"step.",      "options.", "std::",    "basic_string",

@@ -2,6 +2,7 @@
 // ARCSLIP_FULL=1. The same ones on every machine.
 
 #include "catch.hpp"
+#include "environment.hpp"
 
 #include "fuzz/examine.hpp"
 #include "fuzz/mutation.hpp"
@@ -33,7 +34,7 @@ std::string content(const fs::path& path) {
 std::vector<std::string> scenes() {
   std::vector<fs::path> paths;
   for (const char* folder : {"/tests/fuzz/corpus", "/examples"})
-    for (const auto& entry : fs::recursive_directory_iterator(std::string(ARCSLIP_SOURCE_DIR) + folder))
+    for (const auto& entry : fs::recursive_directory_iterator(source_folder() + folder))
       if (entry.path().extension() == ".json") paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
   std::vector<std::string> texts;

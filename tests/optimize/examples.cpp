@@ -1,6 +1,7 @@
 // The studies of the example scenes.
 
 #include "catch.hpp"
+#include "environment.hpp"
 
 #include "lib/hbm/scenes.hpp"
 #include "optimize/optima.hpp"
@@ -21,7 +22,7 @@ using optimize::OptimumSettings;
 namespace {
 
 scene::Scene example(const std::string& file) {
-  return scene::read_file(ARCSLIP_SOURCE_DIR "/examples/" + file, test_catalogue::whole());
+  return scene::read_file(source_folder() + "/examples/" + file, test_catalogue::whole());
 }
 
 const OptimumSettings& settings(const scene::Scene& s, std::size_t study) {

@@ -30,7 +30,7 @@ scene::Scene paper(int order, double load, double damping = 0.134) {
   return s;
 }
 
-std::string error_of(const OptimumProblem& problem, const OptimumOptions& options = {}) {
+std::string optimum_error(const OptimumProblem& problem, const OptimumOptions& options = {}) {
   try {
     optimize::optimum(scenes::paper(1), problem, options);
   } catch (const std::exception& e) {
@@ -324,22 +324,22 @@ TEST_CASE("bad input is answered with what was found and what is allowed") {
     std::string error, expected;
   };
   const Row rows[] = {
-      {error_of(over("damper.normal_load", 100, 0.1)),
+      {optimum_error(over("damper.normal_load", 100, 0.1)),
        "bounds of \"damper.normal_load\" are [100, 0.1]: the lower must be below the upper"},
-      {error_of(over("damper.normal_load", 3, 3)),
+      {optimum_error(over("damper.normal_load", 3, 3)),
        "bounds of \"damper.normal_load\" are [3, 3]: equal bounds leave nothing to vary"},
-      {error_of(over("damper.normal_load", 3, HUGE_VAL)), "are [3, inf]: must be finite"},
-      {error_of(over("damper.normal_load", -1, 3)), "parameter \"damper.normal_load\": "},
-      {error_of(over("damper.normal_laod", 1, 3)), "damper.normal_load"},
-      {error_of(twice), "parameter \"damper.normal_load\" is named twice"},
-      {error_of(window), "the frequency window is [18, 17]: 0 < lower < upper"},
-      {error_of(empty), "there is nothing to vary: no parameter is named"},
-      {error_of(limit), "no observable \"energy_frictoin\" to limit; did you mean \"energy_friction\"?"},
-      {error_of(linear),
+      {optimum_error(over("damper.normal_load", 3, HUGE_VAL)), "are [3, inf]: must be finite"},
+      {optimum_error(over("damper.normal_load", -1, 3)), "parameter \"damper.normal_load\": "},
+      {optimum_error(over("damper.normal_laod", 1, 3)), "damper.normal_load"},
+      {optimum_error(twice), "parameter \"damper.normal_load\" is named twice"},
+      {optimum_error(window), "the frequency window is [18, 17]: 0 < lower < upper"},
+      {optimum_error(empty), "there is nothing to vary: no parameter is named"},
+      {optimum_error(limit), "no observable \"energy_frictoin\" to limit; did you mean \"energy_friction\"?"},
+      {optimum_error(linear),
        "a linear limit names \"c.value\", which is not one of the design parameters: damper.normal_load"},
-      {error_of(crossed), "limit on \"frequency\" is [20, 19]: the lower must be below the upper"},
-      {error_of(over_load, {.algorithm = "LD_SLSPQ"}), "did you mean \"LD_SLSQP\"?"},
-      {error_of(over_load, {.algorithm = "LD_SLSPQ"}), "LN_BOBYQA"},
+      {optimum_error(crossed), "limit on \"frequency\" is [20, 19]: the lower must be below the upper"},
+      {optimum_error(over_load, {.algorithm = "LD_SLSPQ"}), "did you mean \"LD_SLSQP\"?"},
+      {optimum_error(over_load, {.algorithm = "LD_SLSPQ"}), "LN_BOBYQA"},
   };
   for (const Row& row : rows) {
     INFO(row.error);

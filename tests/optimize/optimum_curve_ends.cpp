@@ -19,7 +19,7 @@ using std::numbers::pi;
 
 namespace {
 
-std::string error_of(const scene::Scene& s, const OptimumProblem& problem, const DesignVariable& along) {
+std::string curve_error(const scene::Scene& s, const OptimumProblem& problem, const DesignVariable& along) {
   try {
     optimum_curve(s, problem, along);
   } catch (const std::exception& e) {
@@ -107,12 +107,12 @@ TEST_CASE("what the progress callback throws ends the curve with what there is")
 
 TEST_CASE("what cannot be continued is refused before anything is computed") {
   const DesignVariable force{"force.cosine", 1, 2};
-  CHECK(contains(error_of(paper(1, 0), paper_load, {"force.cosin", 1, 2}), "force.cosine"));
-  CHECK(contains(error_of(paper(1, 0), paper_load, {"damper.normal_load", 1, 2}), "named twice"));
-  CHECK(contains(error_of(paper(1, 0), paper_load, {"force.cosine", 2, 1}), "must be below"));
+  CHECK(contains(curve_error(paper(1, 0), paper_load, {"force.cosin", 1, 2}), "force.cosine"));
+  CHECK(contains(curve_error(paper(1, 0), paper_load, {"damper.normal_load", 1, 2}), "named twice"));
+  CHECK(contains(curve_error(paper(1, 0), paper_load, {"force.cosine", 2, 1}), "must be below"));
   OptimumProblem limited = paper_load;
   limited.limits.push_back({"energy_friction", -HUGE_VAL, 1e-3});
-  CHECK(contains(error_of(paper(1, 0), limited, force), "with limits cannot be continued"));
+  CHECK(contains(curve_error(paper(1, 0), limited, force), "with limits cannot be continued"));
   OptimumCurveOptions options;
   options.step = 0;
   CHECK_THROWS_AS(optimum_curve(paper(1, 0), paper_load, force, options), OptionsError);
@@ -124,7 +124,7 @@ TEST_CASE("what cannot be continued is refused before anything is computed") {
   CHECK_THROWS_AS(optimum_curve(paper(1, 0), paper_load, force, options), OptionsError);
   OptimumProblem cases = paper_load;
   cases.cases.push_back({{{"damper.stiffness", 3000}}});
-  CHECK(contains(error_of(paper(1, 0), cases, force), "over several cases cannot be continued"));
+  CHECK(contains(curve_error(paper(1, 0), cases, force), "over several cases cannot be continued"));
 }
 
 TEST_CASE("a peak without weight beside one that does not depend on the design holds no optimum") {

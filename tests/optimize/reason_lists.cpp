@@ -1,6 +1,7 @@
 // The lists of reasons: what they say is what is written and documented.
 
 #include "catch.hpp"
+#include "environment.hpp"
 
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/response.hpp>
@@ -18,7 +19,7 @@ using namespace arcslip;
 
 namespace {
 
-std::string rows(std::span<const results::Reason> all) {
+std::string reason_rows(std::span<const results::Reason> all) {
   std::string text;
   for (const results::Reason& each : all)
     text.append("| `").append(each.code).append("` | ").append(each.help) += " |\n";
@@ -42,12 +43,12 @@ const std::span<const results::Reason> lists[] = {
 }  // namespace
 
 TEST_CASE("the documentation of results has the rows of the lists of reasons") {
-  std::ifstream file(ARCSLIP_SOURCE_DIR "/docs/results.md");
+  std::ifstream file(source_folder() + "/docs/results.md");
   std::stringstream text;
   text << file.rdbuf();
   for (const auto& list : lists) {
-    INFO("the table is to be:\n" << rows(list));
-    CHECK(text.str().find("|---|---|\n" + rows(list) + "\n") != std::string::npos);
+    INFO("the table is to be:\n" << reason_rows(list));
+    CHECK(text.str().find("|---|---|\n" + reason_rows(list) + "\n") != std::string::npos);
   }
 }
 

@@ -23,8 +23,8 @@ NonlinearProgram interfere(NonlinearProgram problem, long n, std::function<doubl
   return problem;
 }
 
-std::string error_of(const NonlinearProgram& problem, const std::vector<double>& start,
-                     const MinimizeOptions& options = {}) {
+std::string minimize_error(const NonlinearProgram& problem, const std::vector<double>& start,
+                           const MinimizeOptions& options = {}) {
   try {
     minimize(problem, start, options);
   } catch (const OptionsError& e) {
@@ -253,15 +253,16 @@ TEST_CASE("an unknown algorithm is answered with the nearest and the known names
                                                                {"ln_bobyqa", "LN_BOBYQA"},
                                                                {"LN_COBILA", "LN_COBYLA"}};
   for (const auto& [word, meant] : words) {
-    const std::string error = error_of(rosenbrock(), {0, 0}, {.algorithm = word});
+    const std::string error = minimize_error(rosenbrock(), {0, 0}, {.algorithm = word});
     INFO(error);
     CHECK(contains(
         error, std::string("no algorithm \"") + word + "\" in this NLopt; did you mean \"" + meant + "\"?"));
     for (const Algorithm& a : algorithms()) CHECK(contains(error, a.name));
   }
-  CHECK_FALSE(contains(error_of(rosenbrock(), {0, 0}, {.algorithm = "gradient descent"}), "did you mean"));
+  CHECK_FALSE(
+      contains(minimize_error(rosenbrock(), {0, 0}, {.algorithm = "gradient descent"}), "did you mean"));
   CHECK(contains(
-      error_of(rosenbrock(), {0, 0}, {.algorithm = "AUGLAG", .local = LocalOptions{.algorithm = "LN"}}),
+      minimize_error(rosenbrock(), {0, 0}, {.algorithm = "AUGLAG", .local = LocalOptions{.algorithm = "LN"}}),
       "no algorithm \"LN\""));
 }
 
@@ -283,37 +284,39 @@ TEST_CASE("bad input is answered with its numbers") {
   };
   const std::vector<double> x{0, 0}, y{1, 5, 5, 1};
   const Row rows[] = {
-      {error_of(reversed, x), "bounds of variable 1 are [3, 2]: the lower must be below the upper"},
-      {error_of(nan_bound, x),
+      {minimize_error(reversed, x), "bounds of variable 1 are [3, 2]: the lower must be below the upper"},
+      {minimize_error(nan_bound, x),
        "bounds of variable 0 are [not a number, 2]: the lower must be below the upper"},
-      {error_of(equal, x), "bounds of variable 0 are [2, 2]: equal bounds leave nothing to vary"},
-      {error_of(open, x, {.algorithm = "GN_DIRECT"}),
+      {minimize_error(equal, x), "bounds of variable 0 are [2, 2]: equal bounds leave nothing to vary"},
+      {minimize_error(open, x, {.algorithm = "GN_DIRECT"}),
        "bounds of variable 1 are [-2, inf]: GN_DIRECT is a global algorithm and needs finite bounds"},
-      {error_of(empty, x), "the problem has no objective"},
-      {error_of(rosenbrock(), {}), "the start has 0 variables"},
-      {error_of(rosenbrock(), {0, 0, 0}),
+      {minimize_error(empty, x), "the problem has no objective"},
+      {minimize_error(rosenbrock(), {}), "the start has 0 variables"},
+      {minimize_error(rosenbrock(), {0, 0, 0}),
        "the start has 3 variables, but there are 2 lower and 2 upper bounds"},
-      {error_of(rosenbrock(), {0, std::nan("")}), "the start has variable 1 = not a number"},
-      {error_of(hock_schittkowski_71(), y, {.algorithm = "LN_BOBYQA"}),
+      {minimize_error(rosenbrock(), {0, std::nan("")}), "the start has variable 1 = not a number"},
+      {minimize_error(hock_schittkowski_71(), y, {.algorithm = "LN_BOBYQA"}),
        "LN_BOBYQA does not support constraints, but there are 2; algorithms that do: "},
-      {error_of(negative, y), "tolerance of constraint \"product\" is -1, must be finite and >= 0"},
-      {error_of(nameless, y), "constraint \"square\" has no function"},
-      {error_of(rosenbrock(), x, {.tolerances = {.x_relative = -1e-3}}),
+      {minimize_error(negative, y), "tolerance of constraint \"product\" is -1, must be finite and >= 0"},
+      {minimize_error(nameless, y), "constraint \"square\" has no function"},
+      {minimize_error(rosenbrock(), x, {.tolerances = {.x_relative = -1e-3}}),
        "tolerances.x_relative is -0.001, must be finite and >= 0"},
-      {error_of(rosenbrock(), x, {.tolerances = {.f_absolute = infinity}}), "tolerances.f_absolute is inf"},
-      {error_of(rosenbrock(), x, {.evaluations = 0}), "evaluations is 0, must be >= 1"},
-      {error_of(rosenbrock(), x, {.seconds = -1}), "seconds is -1, must be finite and >= 0"},
-      {error_of(rosenbrock(), x, {.target = std::nan("")}), "target is not a number, must be a number"},
-      {error_of(rosenbrock(), x, {.population = -5}), "population is -5, must be >= 0"},
-      {error_of(rosenbrock(), x, {.algorithm = "G_MLSL"}), "G_MLSL needs a local algorithm"},
-      {error_of(rosenbrock(), x, {.local = LocalOptions{.algorithm = "LN_BOBYQA"}}),
+      {minimize_error(rosenbrock(), x, {.tolerances = {.f_absolute = infinity}}),
+       "tolerances.f_absolute is inf"},
+      {minimize_error(rosenbrock(), x, {.evaluations = 0}), "evaluations is 0, must be >= 1"},
+      {minimize_error(rosenbrock(), x, {.seconds = -1}), "seconds is -1, must be finite and >= 0"},
+      {minimize_error(rosenbrock(), x, {.target = std::nan("")}), "target is not a number, must be a number"},
+      {minimize_error(rosenbrock(), x, {.population = -5}), "population is -5, must be >= 0"},
+      {minimize_error(rosenbrock(), x, {.algorithm = "G_MLSL"}), "G_MLSL needs a local algorithm"},
+      {minimize_error(rosenbrock(), x, {.local = LocalOptions{.algorithm = "LN_BOBYQA"}}),
        "a local algorithm is only for AUGLAG and MLSL, not for LD_SLSQP"},
-      {error_of(rosenbrock(), x,
-                {.algorithm = "G_MLSL", .local = LocalOptions{.algorithm = "LN_BOBYQA", .evaluations = -1}}),
+      {minimize_error(
+           rosenbrock(), x,
+           {.algorithm = "G_MLSL", .local = LocalOptions{.algorithm = "LN_BOBYQA", .evaluations = -1}}),
        "local.evaluations is -1, must be >= 0"},
-      {error_of(rosenbrock(), x,
-                {.algorithm = "G_MLSL",
-                 .local = LocalOptions{.algorithm = "LN_BOBYQA", .tolerances = {.f_relative = -1}}}),
+      {minimize_error(rosenbrock(), x,
+                      {.algorithm = "G_MLSL",
+                       .local = LocalOptions{.algorithm = "LN_BOBYQA", .tolerances = {.f_relative = -1}}}),
        "local.tolerances.f_relative is -1, must be finite and >= 0"},
   };
   for (const Row& row : rows) {

@@ -1,5 +1,6 @@
 // Every kind of study that the command knows: its keys in files, in documentation and in the JSON Schema.
 #include "catch.hpp"
+#include "environment.hpp"
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/observables/curves.hpp>
@@ -30,7 +31,7 @@ scene::Catalogue all_kinds() {
 }
 
 /// What docs/scene.md says of the keys of a kind.
-std::string rows(const scene::StudyType& type) {
+std::string key_rows(const scene::StudyType& type) {
   std::string text;
   for (const scene::Key& key : type.keys()) {
     const std::string unit = key.unit == "frequency"   ? "the scene's"
@@ -55,7 +56,7 @@ std::string allowed(const scene::Field& field) {
 }
 
 /// What docs/scene.md says of the fields and options of a part.
-std::string rows(const std::string& part, const scene::PartType& type) {
+std::string part_rows(const std::string& part, const scene::PartType& type) {
   std::ostringstream text;
   bool first = true;
   for (const scene::Field& field : type.fields({})) {
@@ -111,11 +112,11 @@ scene::Scene scene_with_all_kinds() {
 }  // namespace
 
 TEST_CASE("the documentation of scenes has a row for every key of every kind of study") {
-  std::ifstream file(ARCSLIP_SOURCE_DIR "/docs/scene.md");
+  std::ifstream file(source_folder() + "/docs/scene.md");
   std::stringstream text;
   text << file.rdbuf();
   for (const scene::StudyType* type : all_kinds().studies) {
-    const std::string wanted = rows(*type);
+    const std::string wanted = key_rows(*type);
     INFO("the table of " << type->name() << " is to be:\n" << wanted);
     CHECK(text.str().find(wanted) != std::string::npos);
     CHECK(text.str().find("### `" + std::string(type->name()) + "`") != std::string::npos);
@@ -123,20 +124,20 @@ TEST_CASE("the documentation of scenes has a row for every key of every kind of 
 }
 
 TEST_CASE("the documentation of scenes has a row for every field and option of every part") {
-  std::ifstream file(ARCSLIP_SOURCE_DIR "/docs/scene.md");
+  std::ifstream file(source_folder() + "/docs/scene.md");
   std::stringstream text;
   text << file.rdbuf();
-  std::string wanted = rows("mass", scene::mass_type()) + rows("spring", scene::spring_type()) +
-                       rows("damper", scene::damper_type());
+  std::string wanted = part_rows("mass", scene::mass_type()) + part_rows("spring", scene::spring_type()) +
+                       part_rows("damper", scene::damper_type());
   for (const scene::PartType* law : all_kinds().elements)
-    wanted += rows("element of `\"type\": \"" + std::string(law->name()) + "\"`", *law);
-  wanted += rows("force", scene::force_type());
+    wanted += part_rows("element of `\"type\": \"" + std::string(law->name()) + "\"`", *law);
+  wanted += part_rows("force", scene::force_type());
   INFO("the table of parts is to be:\n" << wanted);
   CHECK(text.str().find(wanted) != std::string::npos);
   for (const scene::PartType* type : scene::excitation_types()) {
     if (!scene::is_base_motion(*type)) continue;
     const std::string of_base =
-        rows("excitation of `\"type\": \"" + std::string(type->name()) + "\"`", *type);
+        part_rows("excitation of `\"type\": \"" + std::string(type->name()) + "\"`", *type);
     INFO("the table of parts is to have:\n" << of_base);
     CHECK(text.str().find(of_base) != std::string::npos);
   }

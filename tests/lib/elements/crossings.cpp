@@ -11,7 +11,7 @@ using namespace arcslip::elements;
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double two_pi = 2 * std::numbers::pi;
 
 std::vector<Crossing> crossings_of(const Harmonics& h, const Eigen::VectorXd& u, double level) {
   Crossings crossings(h);
@@ -25,7 +25,7 @@ int sign_changes(const Harmonics& h, const Eigen::VectorXd& u, double level) {
   int changes = 0;
   bool above = series_values(h, u, 0).x > level;
   for (int k = 1; k <= steps; ++k) {
-    const bool next = series_values(h, u, turn * k / steps).x > level;
+    const bool next = series_values(h, u, two_pi * k / steps).x > level;
     if (next != above) ++changes;
     above = next;
   }
@@ -50,7 +50,7 @@ TEST_CASE("a cosine passes a level where its arc cosine tells, up to where it ju
       for (const Crossing& at : found) {
         const double apart = std::acos(level), expected = at.rises ? 0.6 - apart : 0.6 + apart;
         const double rounding = 1e-15 / std::max(std::sin(apart), 1e-8);
-        CHECK(std::abs(std::remainder(at.theta - expected, turn)) < 4e-15 + 4 * rounding);
+        CHECK(std::abs(std::remainder(at.theta - expected, two_pi)) < 4e-15 + 4 * rounding);
       }
     }
 }

@@ -213,7 +213,7 @@ struct Row {
   int dofs, unknowns;
   bool linked;
 };
-constexpr Row none{3, 3, false}, few{7, 2, false}, some{14, 2, true}, dense{40, 3, true},
+constexpr Row no_linear{3, 3, false}, few{7, 2, false}, some{14, 2, true}, dense{40, 3, true},
     sparse{80, 2, false};
 
 struct FullEquation {
@@ -242,7 +242,7 @@ struct FullEquation {
 }  // namespace
 
 TEST_CASE("a condensed equation has the solution of the full one, whatever its size and its links") {
-  for (const Row row : {none, few, some, dense, sparse})
+  for (const Row row : {no_linear, few, some, dense, sparse})
     for (const int n : {1, 3}) {
       CAPTURE(row.dofs, row.unknowns, row.linked, n);
       scene::Scene scene = long_chain(row.dofs, row.linked);
@@ -268,7 +268,7 @@ TEST_CASE("a condensed equation has the solution of the full one, whatever its s
 }
 
 TEST_CASE("a condensed equation and what is observed change with parameters as their differences do") {
-  for (const Row row : {none, few, some, dense, sparse}) {
+  for (const Row row : {no_linear, few, some, dense, sparse}) {
     FullEquation full(long_chain(row.dofs, row.linked));
     hbm::Condensation condensation(full.parts, row.unknowns, full.model.response);
     hbm::Condensed condensed;

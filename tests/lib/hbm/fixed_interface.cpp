@@ -19,14 +19,14 @@ using continuation::Vector;
 
 namespace {
 
-constexpr int dofs = 40;
+constexpr int chain_dofs = 40;
 constexpr double typical = 60;  // rad/s
 
 enum class Damping { none, proportional, few_dampers };
 
 /// A chain with two friction dampers, a massless and a floating degree of freedom, forces in harmonics 1
 /// and 3.
-scene::Scene chain(Damping damping, int length = dofs) {
+scene::Scene chain(Damping damping, int length = chain_dofs) {
   scene::Scene s;
   const auto part = [](const std::string& name, const scene::PartType& type, scene::Direction along,
                        double value) {
@@ -181,7 +181,7 @@ TEST_CASE("with fixed-interface modes a structure on a moving ground is the same
   scene::Scene s = chain(Damping::none);
   s.damping.push_back({"r", &scene::rayleigh_type(), {}, {0.3, 2e-4}});
   scene::Direction all;
-  for (int i = 0; i < dofs; ++i) all.push_back({i, 1.0});
+  for (int i = 0; i < chain_dofs; ++i) all.push_back({i, 1.0});
   for (const int n : {1, 3})
     s.excitation.push_back({"g" + std::to_string(n),
                             n == 1 ? &scene::base_acceleration_type() : &scene::base_displacement_type(),
@@ -227,16 +227,16 @@ TEST_CASE("parts that change beside the modes are exact, a few by their rank and
 TEST_CASE("undamped modes at resonance are a pole, and none beside it") {
   scene::Scene s = chain(Damping::none);
   s.elements.clear();
-  s.elements.push_back({"e", &elements::jenkins(), {{{dofs - 1, 1.0}}}, {1e3, 0.5, 2.0}});
+  s.elements.push_back({"e", &elements::jenkins(), {{{chain_dofs - 1, 1.0}}}, {1e3, 0.5, 2.0}});
   s.masses.clear();
-  for (int i = 0; i < dofs; ++i)
+  for (int i = 0; i < chain_dofs; ++i)
     s.masses.push_back({"m" + std::to_string(i), &scene::mass_type(), {{{i, 1.0}}}, {1.0}});
   for (auto& spring : s.springs) spring.values = {1e4};
   Structure modal(s, true);
   REQUIRE(modal.coordinates.modes);
   Vector p = model::defaults(*modal.model);
   // dofs - 1 masses, clamped at one end and free at the other.
-  p[model::frequency] = 2 * 100 * std::sin(std::numbers::pi / 2 * 15 / (2 * (dofs - 1) + 1));
+  p[model::frequency] = 2 * 100 * std::sin(std::numbers::pi / 2 * 15 / (2 * (chain_dofs - 1) + 1));
   CHECK_FALSE(modal.stiffness.move_to(p));
   p[model::frequency] *= 1 + 1e-6;
   CHECK(modal.stiffness.move_to(p));

@@ -2,6 +2,7 @@
 // Scenes for tests, and single responses of them.
 
 #include "catalogue.hpp"
+#include "environment.hpp"
 
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -18,9 +19,10 @@ using namespace arcslip;
 
 inline constexpr double hertz = 2 * std::numbers::pi;
 
-inline scene::Scene parse(const std::string& text) {
+/// folder: of the files that it names.
+inline scene::Scene parse(const std::string& text, const std::string& folder = {}) {
   std::istringstream in(text);
-  return scene::read(in, test_catalogue::whole());
+  return scene::read(in, test_catalogue::whole(), folder);
 }
 
 struct Oscillator {
@@ -58,7 +60,7 @@ inline const observables::FrequencyRange& window(const scene::Scene& s) {
 }
 
 inline scene::Scene example(const std::string& name) {
-  return scene::read_file(ARCSLIP_SOURCE_DIR "/examples/" + name + "/scene.json", test_catalogue::whole());
+  return scene::read_file(source_folder() + "/examples/" + name + "/scene.json", test_catalogue::whole());
 }
 
 /// The paper's oscillator with one load.

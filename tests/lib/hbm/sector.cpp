@@ -1,6 +1,7 @@
 // One sector of a ring beside the waves of the ring in closed form.
 #include "catch.hpp"
 
+#include "lib/hbm/complex_amplitude.hpp"
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/hbm/problem.hpp>
@@ -24,8 +25,8 @@ using Complex = std::complex<double>;
 
 // A disk and a blade in each of `sectors`, with parts of every kind between neighbours, of which one spring
 // and one damper go from the blade to the next disk, and forces in the harmonics 0 to 3.
-scene::Scene ring(int sectors, int order, const std::string& elements = "", bool full = false,
-                  const std::string& harmonics = "") {
+scene::Scene coupled_ring(int sectors, int order, const std::string& elements = "", bool full = false,
+                          const std::string& harmonics = "") {
   return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
     "cyclic": {"sectors": )" +
                        std::to_string(sectors) + R"(, "engine_order": )" + std::to_string(order) +
@@ -94,16 +95,12 @@ struct Linear {
         p(model::defaults(model)) {}
 };
 
-Complex amplitude(const elements::Harmonics& h, const Vector& x, int n) {
-  return {x[h.cosine_index(n)], n > 0 ? -x[h.sine_index(n)] : 0.0};
-}
-
 }  // namespace
 
 TEST_CASE("a linear sector answers as the travelling wave of its ring in closed form, in every harmonic") {
   for (const int sectors : {2, 5, 24})
     for (const int order : {0, 1, sectors / 2, sectors - 1, sectors + 2, -3}) {
-      Linear ring_of(ring(sectors, order));
+      Linear ring_of(coupled_ring(sectors, order));
       const auto& h = ring_of.model.harmonics;
       REQUIRE(ring_of.coordinates.unknowns == 1);
       for (const double w : {0.05, 0.7, 1.3, 8.0}) {
@@ -118,7 +115,7 @@ TEST_CASE("a linear sector answers as the travelling wave of its ring in closed 
           CAPTURE(sectors, order, w, n);
           const Wave wave(2 * pi * order / sectors, n, w);
           const Eigen::Vector2cd X = wave.Z.partialPivLu().solve(wave.f);
-          CHECK(std::abs(amplitude(h, x, n) - X[1]) < 1e-12 * X.norm());
+          CHECK(std::abs(scenes::complex_amplitude(h, x, n) - X[1]) < 1e-12 * X.norm());
           loss += pi * n * (X.adjoint() * wave.Z * X).value().imag();
           const auto forms = ring_of.stiffness.quadratic_forms(n, u, 1);
           CHECK(std::abs(forms.force - (X.adjoint() * wave.f).value()) < 1e-12 * X.norm() * wave.f.norm());
@@ -129,7 +126,7 @@ TEST_CASE("a linear sector answers as the travelling wave of its ring in closed 
 }
 
 TEST_CASE("the derivatives of a linear sector are those of differences, and its products those transposed") {
-  Linear at(ring(7, 2));
+  Linear at(coupled_ring(7, 2));
   const Eigen::Index c = at.model.harmonics.size();
   std::srand(3);
   const Vector u = Vector::Random(c), a = Vector::Random(c);
@@ -166,7 +163,7 @@ TEST_CASE("the derivatives of a linear sector are those of differences, and its 
 }
 
 TEST_CASE("with the sectors numbered the other way round, the response is another one") {
-  Linear one(ring(7, 2)), other(ring(7, -2));
+  Linear one(coupled_ring(7, 2)), other(coupled_ring(7, -2));
   for (Linear* at : {&one, &other}) {
     at->p[model::frequency] = 1.3;
     REQUIRE(at->stiffness.move_to(at->p));
@@ -191,7 +188,7 @@ TEST_CASE("dR/du and dR/dp with elements between sectors are those of central di
      "normal": {"at": {"next": "tip"}}, "tangential_stiffness": 0.5, "normal_stiffness": 0.8,
      "friction_coefficient": 0.4, "normal_load": 0.6})";
   for (const int order : {0, 2, 5}) {
-    const auto model = std::make_shared<const model::Model>(model::build(ring(9, order, elements)));
+    const auto model = std::make_shared<const model::Model>(model::build(coupled_ring(9, order, elements)));
     REQUIRE_FALSE(model->harmonics.odd);
     const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
     CHECK(problem.coordinates().unknowns == 2);
@@ -248,7 +245,7 @@ Vector later(const elements::Harmonics& h, const Vector& x, double angle) {
   Vector moved = x;
   for (int j = 0; j < h.sines(); ++j) {
     const int n = h.sine_order(j);
-    const Complex X = amplitude(h, x, n) * std::polar(1.0, -n * angle);
+    const Complex X = scenes::complex_amplitude(h, x, n) * std::polar(1.0, -n * angle);
     moved[h.cosine_index(n)] = X.real();
     moved[h.sine_index(n)] = -X.imag();
   }
@@ -272,10 +269,10 @@ TEST_CASE("the response of one sector, spread over the ring, solves the equation
       CAPTURE(elements, order);
       const std::string sampled =
           elements.starts_with(memory) ? R"(, "friction": "sampled", "samples": 512)" : "";
-      const auto one =
-          std::make_shared<const model::Model>(model::build(ring(sectors, order, elements, false, sampled)));
-      const auto all =
-          std::make_shared<const model::Model>(model::build(ring(sectors, order, elements, true, sampled)));
+      const auto one = std::make_shared<const model::Model>(
+          model::build(coupled_ring(sectors, order, elements, false, sampled)));
+      const auto all = std::make_shared<const model::Model>(
+          model::build(coupled_ring(sectors, order, elements, true, sampled)));
       const auto problem = std::make_shared<const hbm::HbmProblem>(one, one->harmonics, 1, 1);
       const hbm::HbmProblem full(all, all->harmonics, 1, 1);
       const Vector p = hbm::parameters_at(*problem, 0.9);

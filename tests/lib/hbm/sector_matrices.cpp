@@ -2,6 +2,7 @@
 // by entry.
 #include "catch.hpp"
 
+#include "lib/hbm/complex_amplitude.hpp"
 #include "lib/hbm/reaching.hpp"
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
@@ -108,10 +109,6 @@ struct Random {
     return f;
   }
 };
-
-Complex amplitude(const elements::Harmonics& h, const Vector& x, int n) {
-  return {x[h.cosine_index(n)], n > 0 ? -x[h.sine_index(n)] : 0.0};
-}
 
 bool same(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tolerance = 1e-12) {
   return (a - b).norm() <= tolerance * b.norm();
@@ -250,7 +247,7 @@ TEST_CASE(
           CAPTURE(sectors, order, w, n);
           const Eigen::MatrixXcd Z = at.dynamic_stiffness(n, p);
           const Eigen::VectorXcd X = continuation::solve_complex(Z, at.force(n, p));
-          CHECK(std::abs(amplitude(h, x, n) - X[2]) < 1e-11 * X.norm());
+          CHECK(std::abs(scenes::complex_amplitude(h, x, n) - X[2]) < 1e-11 * X.norm());
           loss += pi * n * X.dot(Z * X).imag();
           size += Z.norm() * X.squaredNorm();
         }

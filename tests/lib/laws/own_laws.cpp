@@ -26,18 +26,18 @@ using continuation::Vector;
 
 namespace {
 
-const own_laws::CoupledSpring coupled;
-const own_laws::PolynomialType polynomial;
+const own_laws::CoupledSpring coupled_spring;
+const own_laws::PolynomialType polynomial_type;
 const own_laws::TableType table_spring;
 const own_laws::TwoSliders two_sliders;
 
 scene::Catalogue catalogue() {
   auto all = test_catalogue::whole();
-  all.elements.insert(all.elements.end(), {&coupled, &polynomial, &table_spring, &two_sliders});
+  all.elements.insert(all.elements.end(), {&coupled_spring, &polynomial_type, &table_spring, &two_sliders});
   return all;
 }
 
-scene::Scene read(const std::string& text) {
+scene::Scene read_with_own_laws(const std::string& text) {
   std::istringstream in(text);
   return scene::read(in, catalogue());
 }
@@ -73,7 +73,7 @@ void check_jacobian(const scene::Scene& s, double omega, double size, unsigned s
 }  // namespace
 
 TEST_CASE("a law of two directions follows its closed form: in a circle its stiffness is k a^2") {
-  const scene::Scene s = read(plane(circular, R"({"at": "x"})"));
+  const scene::Scene s = read_with_own_laws(plane(circular, R"({"at": "x"})"));
   check_jacobian(s, 0.9, 1, 1);
   const auto branches = observables::frequency_response(s, scenes::window(s));
   REQUIRE(branches.size() == 1);
@@ -99,9 +99,9 @@ TEST_CASE("along one line of the plane the coupled spring is a cubic spring") {
   const auto number = [](double value) { return nlohmann::json(value).dump(); };
   const std::string force =
       R"({"name": "f", "direction": {"x": )" + number(c) + R"(, "y": )" + number(n) + R"(}, "cosine": 0.3})";
-  const scene::Scene s =
-      read(plane(force, R"({"direction": {"x": )" + number(c) + R"(, "y": )" + number(n) + "}}"));
-  const scene::Scene duffing = read(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+  const scene::Scene s = read_with_own_laws(
+      plane(force, R"({"direction": {"x": )" + number(c) + R"(, "y": )" + number(n) + "}}"));
+  const scene::Scene duffing = read_with_own_laws(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
       "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
     "elements": [{"name": "h", "type": "cubic_spring", "at": "x", "stiffness": 0.7}],
@@ -119,7 +119,7 @@ TEST_CASE("along one line of the plane the coupled spring is a cubic spring") {
 }
 
 TEST_CASE("in time a law of two directions comes to the same circle at second order, and keeps its energy") {
-  const scene::Scene s = read(plane(circular, R"({"at": "x"})"));
+  const scene::Scene s = read_with_own_laws(plane(circular, R"({"at": "x"})"));
   const double w = 0.8;
   const auto responses = observables::point_responses(s, {.frequency = w});
   REQUIRE(responses.size() == 1);
@@ -142,7 +142,7 @@ TEST_CASE("in time a law of two directions comes to the same circle at second or
 
 TEST_CASE(
     "the derivatives of a period in steps are those of its differences, with a memory that is no slider") {
-  const scene::Scene s = read(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+  const scene::Scene s = read_with_own_laws(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x", "y"],
       "masses": [{"name": "mx", "at": "x", "value": 1}, {"name": "my", "at": "y", "value": 0.5}],
       "springs": [{"name": "kx", "at": "x", "value": 1}, {"name": "ky", "between": ["x", "y"], "value": 0.7}],
@@ -178,11 +178,11 @@ TEST_CASE(
 
 TEST_CASE("two sliders in one element are two elements with one slider each, in harmonics and in time") {
   const auto with = [](const std::string& elements) {
-    return read(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    return read_with_own_laws(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
       "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
         "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.05}]},
-      "elements": [)" +
-                elements + R"(], "excitation": [{"name": "f", "at": "x", "cosine": 0.4}],
+      "elements": [)" + elements +
+                              R"(], "excitation": [{"name": "f", "at": "x", "cosine": 0.4}],
       "harmonics": {"order": 21}, "response": {"at": "x"}})");
   };
   const scene::Scene one =
@@ -224,13 +224,13 @@ TEST_CASE("options decide which fields a law has, and are read, written and told
     std::string copy = text;
     return copy.replace(copy.find("DEGREE"), 6, degree);
   };
-  const scene::Scene s = read(with(R"(3, "c1": 0.1, "c2": 0, "c3": 0.7)"));
+  const scene::Scene s = read_with_own_laws(with(R"(3, "c1": 0.1, "c2": 0, "c3": 0.7)"));
   CHECK(scene::value(s, "s.c3") == 0.7);
   CHECK(scene::parameter_names(s).size() == 3 + 3 + 2);
   std::istringstream again(scene::write(s));
   CHECK(scene::read(again, catalogue()) == s);
   scene::check(s);
-  const auto cubic = read(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+  const auto cubic = read_with_own_laws(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
       "springs": [{"name": "k", "at": "x", "value": 1.1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
     "elements": [{"name": "s", "type": "cubic_spring", "at": "x", "stiffness": 0.7}],
@@ -241,8 +241,8 @@ TEST_CASE("options decide which fields a law has, and are read, written and told
   CHECK(std::abs(ours[0].point.amplitude - theirs[0].point.amplitude) < 1e-10);
   // The law is not antisymmetric: the response has all harmonics, and a mean where a square is in it.
   CHECK_FALSE(model::build(s).harmonics.odd);
-  const auto squared =
-      observables::point_responses(read(with(R"(3, "c1": 0.1, "c2": 0.4, "c3": 0.7)")), {.frequency = 0.9});
+  const auto squared = observables::point_responses(
+      read_with_own_laws(with(R"(3, "c1": 0.1, "c2": 0.4, "c3": 0.7)")), {.frequency = 0.9});
   REQUIRE_FALSE(squared.empty());
   CHECK(squared[0].point.coefficients[0] < -0.01);
 
@@ -252,7 +252,7 @@ TEST_CASE("options decide which fields a law has, and are read, written and told
         {R"(2, "c1": 1, "c2": 1, "c3": 1)", "/elements/0/c3: found the unknown key \"c3\""},
         {R"(2, "c1": 1)", "/elements/0/c2: found no key \"c2\""}}) {
     CAPTURE(degree);
-    CHECK_THROWS_WITH(read(with(degree)), Catch::Matchers::Contains(fault));
+    CHECK_THROWS_WITH(read_with_own_laws(with(degree)), Catch::Matchers::Contains(fault));
   }
   CHECK(scene::json_schema(catalogue()).find("\"degree\"") != std::string::npos);
   CHECK(scene::json_schema(catalogue()).find("\"second\"") != std::string::npos);
@@ -270,13 +270,13 @@ TEST_CASE("directions that are lacking or not as they must be are told where the
         {R"("second": {"at": "z"})", "/elements/0/second/at: found \"z\""},
         {R"("second": "y")", "/elements/0/second: found \"y\" (a string), must be an object"}}) {
     CAPTURE(second);
-    CHECK_THROWS_WITH(read(with(second)), Catch::Matchers::Contains(fault));
+    CHECK_THROWS_WITH(read_with_own_laws(with(second)), Catch::Matchers::Contains(fault));
   }
-  scene::Scene s = read(text);
+  scene::Scene s = read_with_own_laws(text);
   s.elements[0].directions.pop_back();
   CHECK_THROWS_WITH(scene::check(s),
                     "/elements/0: found 1 directions, must be 2 for the type \"coupled_spring\"");
-  s = read(text);
+  s = read_with_own_laws(text);
   s.elements[0].values.clear();
   CHECK_THROWS_WITH(scene::check(s),
                     "/elements/0: found 0 values, must be 1 for the type \"coupled_spring\"");

@@ -21,9 +21,9 @@ using namespace every_law;
 
 namespace {
 
-const own_laws::RenamedJenkins renamed;
-const own_laws::CoupledSpring coupled;
-const own_laws::PolynomialLaw polynomial(4);
+const own_laws::RenamedJenkins renamed_law;
+const own_laws::CoupledSpring coupled_law;
+const own_laws::PolynomialLaw quartic_law(4);
 const auto gap = piecewise_linear_laws::gap(false), gaps = piecewise_linear_laws::gap(true),
            bilinear = piecewise_linear_laws::bilinear(false),
            bilinear_on_one_side = piecewise_linear_laws::bilinear(true),
@@ -44,9 +44,9 @@ struct Example {
 // Rigid friction, whose force jumps, has checks of its own: elements/coulomb.cpp.
 const Example all[] = {
     {elements::jenkins(), {2, 0.5, 1}, 1e-7},
-    {renamed, {0.5, 1, 2}, 1e-7},
+    {renamed_law, {0.5, 1, 2}, 1e-7},
     {elements::cubic_spring(), {0.7}, 1e-7},
-    {coupled, {0.7}, 1e-7},
+    {coupled_law, {0.7}, 1e-7},
     {*gap, {3, 0.2}, 1e-6},
     {*gap, {3, -0.2}, 1e-6},
     {*gaps, {3, 0.2}, 1e-6},
@@ -61,7 +61,7 @@ const Example all[] = {
     {elements::contact_3d(), {2, 1.5, 0.5, 1}, 1e-6},
     {elements::contact_3d(), {2, 1.5, 0.5, -0.3}, 1e-6},
     {elements::contact_3d(), {2, 0, 0.5, 1}, 1e-6},
-    {polynomial, {0.3, -0.2, 0.5, 0.1}, 1e-7},
+    {quartic_law, {0.3, -0.2, 0.5, 0.1}, 1e-7},
     {*uniform, {2, 0.8}, 1e-7},
     {*four_parameter, {2, 0.8, -0.3, 0.4}, 1e-7},
     {*table, {1.2, 0.9}, 1e-7},

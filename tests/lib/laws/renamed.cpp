@@ -16,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-const own_laws::RenamedJenkins renamed;
+const own_laws::RenamedJenkins renamed_jenkins;
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
@@ -33,7 +33,7 @@ std::string in_other_words(std::string text) {
   return text;
 }
 
-scene::Scene read(const json& file, bool other) {
+scene::Scene read_with_names(const json& file, bool other) {
   auto catalogue = test_catalogue::whole();
   if (!other) {
     std::istringstream in(file.dump());
@@ -46,7 +46,7 @@ scene::Scene read(const json& file, bool other) {
       element.erase("stiffness");
       element.erase("offset");  // an option of the law's own
     }
-  catalogue.elements = {&renamed};
+  catalogue.elements = {&renamed_jenkins};
   for (const auto* law : elements::laws())
     if (law != &elements::jenkins()) catalogue.elements.push_back(law);
   std::istringstream in(changed.dump());
@@ -72,10 +72,10 @@ json run(const scene::Scene& scene) {
 
 // reason: how a study of the file ends.
 void check_same(const json& file, const std::string& reason = "complete") {
-  json expected = run(read(file, false));
+  json expected = run(read_with_names(file, false));
   CHECK(expected.dump().find("\"" + reason + "\"") != std::string::npos);
   CHECK((reason != "complete" || expected.dump().find("\"status\":\"failed\"") == std::string::npos));
-  json found = run(read(file, true));
+  json found = run(read_with_names(file, true));
   expected = json::parse(in_other_words(expected.dump()));
   drop_times(expected);
   drop_times(found);

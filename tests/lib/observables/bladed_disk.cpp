@@ -1,5 +1,6 @@
 // examples/bladed_disk: with one harmonic the sector's response is a closed form; its full ring is read.
 #include "catch.hpp"
+#include "environment.hpp"
 
 #include "lib/hbm/scenes.hpp"
 
@@ -53,7 +54,7 @@ TEST_CASE("the sector of the bladed disk has the amplitude of the describing fun
 TEST_CASE("the mistuned bladed disk is the same sector 24 times, with other blades") {
   const scene::Scene one = scenes::example("bladed_disk");
   const scene::Scene all =
-      scene::read_file(ARCSLIP_SOURCE_DIR "/examples/bladed_disk/mistuned.json", test_catalogue::whole());
+      scene::read_file(source_folder() + "/examples/bladed_disk/mistuned.json", test_catalogue::whole());
   CHECK(all.dofs.size() == 48);
   CHECK(all.elements.size() == 24);
   CHECK(all.responses.size() == 24);

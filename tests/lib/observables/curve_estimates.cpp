@@ -1,6 +1,7 @@
 // What harmonics left out do to the events of curves of peaks and folds, beside more harmonics.
 
 #include "catch.hpp"
+#include "environment.hpp"
 
 #include "lib/hbm/scenes.hpp"
 
@@ -42,7 +43,7 @@ ResponsePoint near(const std::vector<ResponseBranch>& curves, const std::string&
 
 scene::Scene beam(int order) {
   scene::Scene s =
-      scene::read_file(ARCSLIP_SOURCE_DIR "/examples/cantilever/beam.json", test_catalogue::whole());
+      scene::read_file(source_folder() + "/examples/cantilever/beam.json", test_catalogue::whole());
   s.harmonics.order = order;
   return s;
 }

@@ -14,7 +14,7 @@ std::vector<observables::ResponseEvent> folds(const observables::ResponseBranch&
   return found;
 }
 
-scene::Scene duffing(double damping, double cubic, double force, int order, double to) {
+scene::Scene duffing_example(double damping, double cubic, double force, int order, double to) {
   scene::Scene s = scenes::example("duffing");
   scene::set(s, "c.value", damping);
   scene::set(s, "hardening.stiffness", cubic);
@@ -27,7 +27,7 @@ scene::Scene duffing(double damping, double cubic, double force, int order, doub
 }  // namespace
 
 TEST_CASE("both folds of the Duffing oscillator of NLvib example 01 are found to 1e-9") {
-  const scene::Scene s = duffing(0.05, 0.1, 0.18, 15, 1.6);
+  const scene::Scene s = duffing_example(0.05, 0.1, 0.18, 15, 1.6);
   const auto branches = observables::frequency_response(s, scenes::window(s));
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::complete);
@@ -44,7 +44,7 @@ TEST_CASE(
     "with one harmonic the folds are those of the closed form, with many those of the differential "
     "equation") {
   const auto one = folds([] {
-    const scene::Scene s = duffing(0.1, 1, 0.1, 1, 2);
+    const scene::Scene s = duffing_example(0.1, 1, 0.1, 1, 2);
     return observables::frequency_response(s, scenes::window(s)).front();
   }());
   REQUIRE(one.size() == 2);
@@ -53,7 +53,7 @@ TEST_CASE(
   CHECK(std::abs(one[0].point.amplitude - 0.808418576) < 1e-8);
   CHECK(std::abs(one[1].point.amplitude - 0.424611125) < 1e-8);
   for (int order : {9, 15, 35}) {
-    const scene::Scene s = duffing(0.1, 1, 0.1, order, 2);
+    const scene::Scene s = duffing_example(0.1, 1, 0.1, order, 2);
     const auto many = folds(observables::frequency_response(s, scenes::window(s)).front());
     REQUIRE(many.size() == 2);
     CHECK(std::abs(many[0].point.omega - 1.2287354913) < 1e-9);

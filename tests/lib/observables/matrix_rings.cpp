@@ -18,16 +18,9 @@ using namespace matrix_rings;
 
 namespace {
 
-const std::string reduced = R"(, "highest_frequency": 60)";
-const std::vector<double> frequencies{0.4, 0.7, 0.95, 1.2, 1.6, 2.3, 3.1};
-
 // Unlike each other, and not symmetric about any sector.
 const std::vector<double> by_hub{1, 1.3, 0.8, 1.1, 0.9, 1.25}, by_blade{1.02, 0.97, 1.1, 1, 0.91, 1.04},
     by_mass{0.9, 1.2, 1, 1.4, 0.8, 1}, by_load{1, 0.7, 1.2, 0.9, 1.5, 1.1};
-
-double off(double a, double b) {
-  return std::abs(a - b) / std::abs(b);
-}
 
 // The largest difference of what the points have, relative.
 double difference(const observables::ResponsePoint& a, const observables::ResponsePoint& b) {

@@ -26,7 +26,7 @@ namespace {
 
 constexpr double coupling = 0.01;  // N/m, between blades of 1 N/m and 1 kg
 
-scene::Scene ring(const std::vector<double>& factors, int order, double damping) {
+scene::Scene mistuned_ring(const std::vector<double>& factors, int order, double damping) {
   std::ostringstream list;
   list.precision(17);
   for (std::size_t i = 0; i < factors.size(); ++i) list << (i > 0 ? ", " : "") << factors[i];
@@ -77,7 +77,7 @@ TEST_CASE("no random mistuning of a ring amplifies beyond the limit of Whitehead
         std::vector<double> factors(sectors);
         for (double& factor : factors) factor = normal(random);
         const double damping = pattern % 2 == 0 ? 0.002 : 0.0005;
-        const double found = amplification(ring(factors, order, damping), damping, 0.95, 1.08, 1000);
+        const double found = amplification(mistuned_ring(factors, order, damping), damping, 0.95, 1.08, 1000);
         CAPTURE(sectors, order, pattern);
         CHECK(found <= limit(sectors) * (1 + 1e-10));
         most = std::max(most, found / limit(sectors));
@@ -87,7 +87,7 @@ TEST_CASE("no random mistuning of a ring amplifies beyond the limit of Whitehead
 
 TEST_CASE("the tuned ring is amplified by 1 at its resonance") {
   const double damping = 0.002;
-  CHECK(amplification(ring(std::vector<double>(24, 1.0), 3, damping), damping, 1, 1.02, 4001) ==
+  CHECK(amplification(mistuned_ring(std::vector<double>(24, 1.0), 3, damping), damping, 1, 1.02, 4001) ==
         Approx(1).epsilon(1e-5));
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("the worst pattern for a wave of real forces comes to 0.9 of the limit
       const double before = mode[(i + sectors - 1) % sectors], after = mode[(i + 1) % sectors];
       factors[i] = 1 - coupling * (2 * mode[i] - before - after) / mode[i];
     }
-    const double found = amplification(ring(factors, 0, damping), damping, 1 - 2e-6, 1 + 2e-6, 401);
+    const double found = amplification(mistuned_ring(factors, 0, damping), damping, 1 - 2e-6, 1 + 2e-6, 401);
     CAPTURE(sectors, found, limit(sectors));
     CHECK(found > 0.9 * limit(sectors));
     CHECK(found <= limit(sectors) * (1 + 1e-8));

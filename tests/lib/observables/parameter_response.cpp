@@ -18,7 +18,8 @@ using observables_test::events;
 
 namespace {
 
-observables::ParameterRange over(const std::string& parameter, double frequency, double from, double to) {
+observables::ParameterRange parameter_range(const std::string& parameter, double frequency, double from,
+                                            double to) {
   return {parameter, from, to, frequency};
 }
 
@@ -31,7 +32,7 @@ TEST_CASE("over the load, at fixed frequency, the paper's oscillator responds ex
       if (exact["frequency_hz"] != frequency) continue;
       CAPTURE(frequency, load);
       const auto branches = observables::parameter_response(
-          scenes::paper(55), over("damper.normal_load", frequency, 0.01, load));
+          scenes::paper(55), parameter_range("damper.normal_load", frequency, 0.01, load));
       REQUIRE(branches.size() == 1);
       const ResponseBranch& branch = branches[0];
       CHECK(branch.status == observables::Status::complete);
@@ -48,7 +49,8 @@ TEST_CASE("over the load, at fixed frequency, the paper's oscillator responds ex
 
 TEST_CASE("at 20 Hz the response over the load has one maximum, above both responses in its neighbourhood") {
   const auto branch =
-      observables::parameter_response(scenes::paper(15), over("damper.normal_load", 20, 0.01, 500)).front();
+      observables::parameter_response(scenes::paper(15), parameter_range("damper.normal_load", 20, 0.01, 500))
+          .front();
   CHECK(branch.status == observables::Status::complete);
   CHECK(branch.points.front().over == 0.01);
   CHECK(branch.points.back().over == 500);
@@ -75,8 +77,8 @@ TEST_CASE("the Jenkins and Duffing oscillator folds in the load where its descri
   // Below the first fold and above the second there are two responses of large amplitude beside the small
   // one.
   const auto s = scenes::duffing_jenkins();
-  for (const auto& [range, fold] : {std::pair(over("d.normal_load", 2, 0.5, 3), 0.9169049045),
-                                    std::pair(over("d.normal_load", 2, 3, 0.5), 1.6884695203)}) {
+  for (const auto& [range, fold] : {std::pair(parameter_range("d.normal_load", 2, 0.5, 3), 0.9169049045),
+                                    std::pair(parameter_range("d.normal_load", 2, 3, 0.5), 1.6884695203)}) {
     const auto branches = observables::parameter_response(s, range);
     CAPTURE(fold);
     REQUIRE(branches.size() == 2);
@@ -99,7 +101,7 @@ TEST_CASE("through full stick, where the load moves nothing, no branch over the 
       scene::Scene with = s;
       with.harmonics.order = order;
       const auto branches =
-          observables::parameter_response(with, over("damper.normal_load", frequency, 0.01, 3));
+          observables::parameter_response(with, parameter_range("damper.normal_load", frequency, 0.01, 3));
       CHECK(branches[0].points.back().over == 3);
       CHECK(branches[0].points.back().elements[1].stick_percent == 100);
       for (const auto& branch : branches) CHECK(branch.status == observables::Status::complete);
@@ -112,23 +114,25 @@ TEST_CASE("over a tie both of its fields change") {
   s.elements.back().name = "second";
   for (auto& element : s.elements) element.values[0] = 1750;
   s.ties.push_back({"loads", {"damper.normal_load", "second.normal_load"}});
-  const auto halves = observables::parameter_response(s, over("loads", 20, 0.5, 1.5)).front();
+  const auto halves = observables::parameter_response(s, parameter_range("loads", 20, 0.5, 1.5)).front();
   const auto whole =
-      observables::parameter_response(scenes::paper(7), over("damper.normal_load", 20, 1, 3)).front();
+      observables::parameter_response(scenes::paper(7), parameter_range("damper.normal_load", 20, 1, 3))
+          .front();
   CHECK(reference::error(halves.points.back().amplitude, whole.points.back().amplitude) < 1e-10);
   CHECK(reference::error(halves.points.front().amplitude, whole.points.front().amplitude) < 1e-10);
 }
 
 TEST_CASE("a parameter that is not there, or may not take the value, is refused by name") {
-  CHECK_THROWS_AS(observables::parameter_response(scenes::paper(1), over("damper.load", 20, 1, 3)),
+  CHECK_THROWS_AS(observables::parameter_response(scenes::paper(1), parameter_range("damper.load", 20, 1, 3)),
                   scene::ParameterError);
-  CHECK_THROWS_AS(observables::parameter_response(scenes::paper(1), over("damper.normal_load", 20, 1, -3)),
-                  scene::ParameterError);
+  CHECK_THROWS_AS(
+      observables::parameter_response(scenes::paper(1), parameter_range("damper.normal_load", 20, 1, -3)),
+      scene::ParameterError);
 }
 
 TEST_CASE("a branch over a parameter ends with the callback, and no other is begun") {
   const auto compute = [](const studies::Case& at, const observables::ProgressCallback& tell) {
-    return observables::parameter_response(at.scene, over("damper.normal_load", 20, 1, 3), tell);
+    return observables::parameter_response(at.scene, parameter_range("damper.normal_load", 20, 1, 3), tell);
   };
   double share = 0;
   const auto branches =
@@ -148,7 +152,7 @@ TEST_CASE("a branch over a parameter ends with the callback, and no other is beg
 TEST_CASE("a branch over a parameter asks in every phase, and is stopped in each") {
   scene::Scene s = scenes::paper(7);
   s.elements.push_back({"h", &elements::cubic_spring(), {{{0, 1.0}}}, {1e9}});
-  const auto range = over("damper.normal_load", 20, 1, 100);
+  const auto range = parameter_range("damper.normal_load", 20, 1, 100);
   long asked = 0, before_points = 0;
   observables::parameter_response(s, range, [&](const observables::Progress& now) {
     ++asked;
@@ -172,7 +176,8 @@ TEST_CASE("a branch over a parameter asks in every phase, and is stopped in each
 TEST_CASE("no study speaks of a Jacobian to the user of a scene") {
   scene::Scene s = scenes::paper(7, 3);
   scene::set(s, "damper.stiffness", 1e32);
-  for (const auto& branch : observables::parameter_response(s, over("damper.normal_load", 20, 1, 100))) {
+  for (const auto& branch :
+       observables::parameter_response(s, parameter_range("damper.normal_load", 20, 1, 100))) {
     CAPTURE(branch.stop.message);
     CHECK(branch.stop.message.find("Jacobian") == std::string::npos);
     CHECK(branch.stop.message.find("make damper.stiffness smaller") != std::string::npos);
@@ -192,7 +197,7 @@ TEST_CASE("where the resonance is unbounded at the fixed frequency, a branch say
       "normal_load": 0.1}],
     "excitation": [{"name": "f", "at": "x", "cosine": 1}], "harmonics": {"order": 3}, "response": {"at": "x"},
     "studies": [{"kind": "frf", "from": 0.2, "to": 3}]})");
-  const auto branch = observables::parameter_response(s, over("d.normal_load", 1, 0.1, 3)).front();
+  const auto branch = observables::parameter_response(s, parameter_range("d.normal_load", 1, 0.1, 3)).front();
   CHECK(branch.status == observables::Status::failed);
   CHECK(branch.stop.reason == observables::reasons::start_failed);
   CHECK(branch.stop.message.find("unbounded") != std::string::npos);

@@ -32,7 +32,7 @@ CurveRange over_load(double from, double to) {
 }
 
 /// In the window of the scene.
-CurveRange over(const scene::Scene& s, const std::string& parameter, double from, double to) {
+CurveRange curve_range(const scene::Scene& s, const std::string& parameter, double from, double to) {
   const auto& window = scenes::window(s);
   return {parameter, from, to, window.from, window.to};
 }
@@ -155,7 +155,7 @@ int compare(const scene::Scene& s, const std::string& parameter, double from, do
   scene::set(at, parameter, load);
   const auto frf = observables::frequency_response(at, scenes::window(at)).front();
   int compared = 0;
-  for (const auto& curve : observables::resonance_peaks(s, over(s, parameter, from, load))) {
+  for (const auto& curve : observables::resonance_peaks(s, curve_range(s, parameter, from, load))) {
     CAPTURE(curve.stop.message);
     corners += static_cast<int>(events(curve, "corner").size());
     if (curve.points.empty() || curve.points.back().over != load) continue;
@@ -215,8 +215,8 @@ scene::Scene absorber() {
     "studies": [{"kind": "frf", "from": 0.6, "to": 1.4}]})");
 }
 
-CurveRange peaks_of(const scene::Scene& s, double from, double to) {
-  return over(s, "d1.normal_load", from, to);
+CurveRange normal_load_range(const scene::Scene& s, double from, double to) {
+  return curve_range(s, "d1.normal_load", from, to);
 }
 
 /// Each peak of the responses between is on one curve, and on one only. Returns how many there are.
@@ -244,7 +244,7 @@ TEST_CASE(
     "a peak that is born within the range of a parameter is followed, in both directions of the range") {
   const scene::Scene s = absorber();
   for (const auto& [from, to] : {std::pair(0.1, 20.0), std::pair(20.0, 0.1)}) {
-    const auto curves = observables::resonance_peaks(s, peaks_of(s, from, to));
+    const auto curves = observables::resonance_peaks(s, normal_load_range(s, from, to));
     // Where the absorber sticks there are two masses on springs: the resonances of the closed form.
     std::vector<double> stuck;
     for (const auto& curve : curves) {
@@ -264,7 +264,7 @@ TEST_CASE(
       CHECK(second < 0);
       CHECK(std::abs(slope / second) < 1e-8);
     }
-    CHECK(check_between(s, peaks_of(s, from, to)) >= 14);
+    CHECK(check_between(s, normal_load_range(s, from, to)) >= 14);
   }
 }
 
@@ -275,13 +275,13 @@ TEST_CASE(
   for (std::uint64_t seed : {3, 4, 13, 15, 19, 20, 25, 37}) {
     const scene::Scene s = random_scenes::make(seed, random_scenes::Excitation::first);
     CAPTURE(seed);
-    check_between(s, peaks_of(s, 0.01, 100));
+    check_between(s, normal_load_range(s, 0.01, 100));
   }
 }
 
 TEST_CASE("a peak that meets a minimum of the amplitude ends there, and the curve says so") {
   const scene::Scene s = random_scenes::make(4, random_scenes::Excitation::first);
-  const CurveRange range = peaks_of(s, 0.1, 1);
+  const CurveRange range = normal_load_range(s, 0.1, 1);
   bool ended = false;
   for (const auto& curve : observables::resonance_peaks(s, range)) {
     if (curve.stop.reason != observables::reasons::fold) continue;
@@ -361,7 +361,7 @@ TEST_CASE(
     "a peak that another instant of the period surpasses ends there: the response has it before, not "
     "beyond") {
   const scene::Scene s = random_scenes::make(5, random_scenes::Excitation::first_and_second);
-  const CurveRange range = peaks_of(s, 1, 3);
+  const CurveRange range = normal_load_range(s, 1, 3);
   const auto branches = observables::resonance_peaks(s, range);
   const auto surpassed = std::find_if(branches.begin(), branches.end(), [](const ResponseBranch& branch) {
     return branch.stop.reason == observables::reasons::fold && events(branch, "fold").empty();

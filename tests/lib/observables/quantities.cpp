@@ -1,6 +1,7 @@
 // The table of quantities: what it says is what is written, limited and documented.
 
 #include "catch.hpp"
+#include "environment.hpp"
 
 #include "lib/hbm/scenes.hpp"
 
@@ -57,7 +58,7 @@ void add_paths(const nlohmann::json& json, const std::string& prefix, std::set<s
 }  // namespace
 
 TEST_CASE("the documentation of results has the rows of the table of quantities") {
-  std::ifstream file(ARCSLIP_SOURCE_DIR "/docs/results.md");
+  std::ifstream file(source_folder() + "/docs/results.md");
   std::stringstream text;
   text << file.rdbuf();
   for (const auto& wanted :

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "environment.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -8,7 +10,7 @@
 namespace reference {
 
 inline nlohmann::json read(const std::string& file) {
-  std::ifstream in(ARCSLIP_SOURCE_DIR "/tests/reference/" + file);
+  std::ifstream in(source_folder() + "/tests/reference/" + file);
   return nlohmann::json::parse(in);
 }
 

@@ -24,7 +24,7 @@ std::vector<PointResponse> at(const scene::Scene& s, double frequency) {
   return observables::point_responses(s, {frequency});
 }
 
-scene::Scene duffing(double cubic, double force) {
+scene::Scene duffing_scene(double cubic, double force) {
   return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
       "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.05}]},
@@ -37,7 +37,7 @@ scene::Scene duffing(double cubic, double force) {
 }  // namespace
 
 TEST_CASE("a linear response is that of the closed form") {
-  const scene::Scene s = duffing(0, 0.3);
+  const scene::Scene s = duffing_scene(0, 0.3);
   for (const double w : {0.01, 0.9, 1.0, 1.1, 100.0}) {
     const auto found = at(s, w);
     REQUIRE(found.size() == 1);
@@ -51,7 +51,7 @@ TEST_CASE("a linear response is that of the closed form") {
 
 TEST_CASE("where a spring is cubic all three responses are found, each once") {
   const double w = 1.2, c = 0.05, cubic = 0.1, force = 0.2;
-  const auto found = at(duffing(cubic, force), w);
+  const auto found = at(duffing_scene(cubic, force), w);
   REQUIRE(found.size() == 3);
   std::set<int> sizes;
   for (const PointResponse& each : found) {
@@ -62,13 +62,13 @@ TEST_CASE("where a spring is cubic all three responses are found, each once") {
     sizes.insert(static_cast<int>(std::lround(10 * a)));
   }
   CHECK(sizes.size() == 3);
-  CHECK(at(duffing(cubic, force), 3).size() == 1);
+  CHECK(at(duffing_scene(cubic, force), 3).size() == 1);
 }
 
 TEST_CASE(
     "where the branch through the frequency cannot be followed, responses may be missing, and it is said") {
-  for (const PointResponse& each : at(duffing(0.1, 0.2), 1.2)) CHECK(each.doubt.empty());
-  const auto found = at(duffing(-0.5, 0.3), 0.5);  // the spring pulls apart beyond x = 1.4
+  for (const PointResponse& each : at(duffing_scene(0.1, 0.2), 1.2)) CHECK(each.doubt.empty());
+  const auto found = at(duffing_scene(-0.5, 0.3), 0.5);  // the spring pulls apart beyond x = 1.4
   REQUIRE_FALSE(found.empty());
   for (const PointResponse& each : found)
     CHECK(each.doubt.find("other responses may be missing, since the branch from a quarter") == 0);

@@ -20,7 +20,7 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr int sectors = 8;  // by which the samples of laws that are sampled are divided
+constexpr int sector_count = 8;  // by which the samples of laws that are sampled are divided
 
 struct Given {
   int order = 1;
@@ -30,10 +30,10 @@ struct Given {
 };
 
 // A ring of disks with a blade on each.
-scene::Scene ring(const Given& given, bool full) {
+scene::Scene bladed_ring(const Given& given, bool full) {
   return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
     "cyclic": {"sectors": )" +
-                       std::to_string(sectors) + ", \"engine_order\": " + std::to_string(given.order) +
+                       std::to_string(sector_count) + ", \"engine_order\": " + std::to_string(given.order) +
                        (full ? ", \"full\": true" : "") + R"(},
     "dofs": ["tip", "disk"],
     "masses": [{"name": "mt", "at": "tip", "value": 1}, {"name": "md", "at": "disk", "value": 3}],
@@ -54,12 +54,12 @@ void check_point(const observables::ResponsePoint& one, const observables::Respo
   const auto same = [](double a, double b) { return Approx(b).epsilon(1e-10).margin(1e-11) == a; };
   CHECK(std::abs(one.amplitude / all.amplitude - 1) < 1e-10);
   CHECK(std::abs(std::remainder(one.phase - all.phase, 2 * pi)) < 1e-9);
-  CHECK(same(sectors * one.energy_friction, all.energy_friction));
-  CHECK(same(sectors * one.energy_viscous, all.energy_viscous));
+  CHECK(same(sector_count * one.energy_friction, all.energy_friction));
+  CHECK(same(sector_count * one.energy_viscous, all.energy_viscous));
   CHECK(std::abs(one.energy_input / one.energy_total() - 1) < 1e-10);
-  REQUIRE(all.elements.size() == sectors * one.elements.size());
+  REQUIRE(all.elements.size() == sector_count * one.elements.size());
   for (std::size_t e = 0; e < one.elements.size(); ++e) {
-    const auto &of_one = one.elements[e], &of_all = all.elements[e * sectors];
+    const auto &of_one = one.elements[e], &of_all = all.elements[e * sector_count];
     CHECK(same(of_one.energy, of_all.energy));
     CHECK(std::abs(of_one.stick_percent - of_all.stick_percent) < 1e-6);
   }
@@ -85,9 +85,9 @@ TEST_CASE("one sector moves as each of the full ring, with all kinds of laws wit
        {Given{2, dampers}, Given{3, dampers, several}, Given{-1, dampers + ", " + cubic}, Given{5, gap},
         Given{1, gap, several, 4}, Given{1, contact, several, 6}, Given{2, cubic + ", " + contact},
         Given{2, memory, Given{}.excitation, 5, sampled}, Given{0, dampers + ", " + gap, several}}) {
-    const scene::Scene one = ring(given, false), all = ring(given, true);
+    const scene::Scene one = bladed_ring(given, false), all = bladed_ring(given, true);
     REQUIRE(one.dofs.size() == 2);
-    REQUIRE(all.dofs.size() == 2 * sectors);
+    REQUIRE(all.dofs.size() == 2 * sector_count);
     for (const double w : {0.75, 1.6}) {
       CAPTURE(given.order, given.elements, given.excitation, w);
       const auto of_one = observables::point_responses(one, {.frequency = w});
@@ -112,14 +112,14 @@ TEST_CASE("a wave of the other sense is another motion of the ring") {
   const Given given{2, dampers, R"({"name": "f", "direction": {"tip": 1, "disk": 0.4}, "cosine": 1})"};
   Given other = given;
   other.order = -2;
-  const auto one = observables::point_responses(ring(given, false), {.frequency = 0.95});
-  const auto back = observables::point_responses(ring(other, true), {.frequency = 0.95});
+  const auto one = observables::point_responses(bladed_ring(given, false), {.frequency = 0.95});
+  const auto back = observables::point_responses(bladed_ring(other, true), {.frequency = 0.95});
   CHECK(std::abs(one[0].point.amplitude / back[0].point.amplitude - 1) > 1e-4);
 }
 
 TEST_CASE("the peaks of one sector, and the curve of its peaks over the load, are those of the full ring") {
   const Given given{2, dampers};
-  const scene::Scene one = ring(given, false), all = ring(given, true);
+  const scene::Scene one = bladed_ring(given, false), all = bladed_ring(given, true);
   const auto of_one = observables::frequency_response(one, {0.6, 1.4});
   const auto of_all = observables::frequency_response(all, {0.6, 1.4});
   const auto peaks = [](const std::vector<observables::ResponseBranch>& branches) {
@@ -158,7 +158,7 @@ TEST_CASE("the peaks of one sector, and the curve of its peaks over the load, ar
 
 TEST_CASE("studies of the motion in time refuse one sector, and say what to give") {
   const Given given{2, dampers};
-  const scene::Scene one = ring(given, false);
+  const scene::Scene one = bladed_ring(given, false);
   const auto in_time = observables::motion_in_time(one, {0.9});
   CHECK(in_time.status == observables::Status::failed);
   CHECK(in_time.stop.reason == observables::reasons::sector);

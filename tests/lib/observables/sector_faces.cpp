@@ -1,6 +1,7 @@
 // Sectors from matrices with rows on both faces, beside the same rings of masses and springs.
 #include "catch.hpp"
 #include "contains.hpp"
+#include "environment.hpp"
 
 #include "lib/scene/matrix_rings.hpp"
 #include "lib/scene/only_fault.hpp"
@@ -26,9 +27,6 @@ using namespace matrix_rings;
 namespace {
 
 using Complex = std::complex<double>;
-
-const std::vector<double> frequencies{0.4, 0.7, 0.95, 1.2, 1.6, 2.3, 3.1};
-const std::string reduced = R"(, "highest_frequency": 60)";
 
 std::string without(std::string whole, const std::string& from, const std::string& to) {
   const std::size_t begin = whole.find(from), end = whole.find(to, begin);
@@ -68,12 +66,8 @@ std::string read_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-double off(double a, double b) {
-  return std::abs(a - b) / std::abs(b);
-}
-
 // Of the first sectors, and the energies of one.
-double difference(const scene::Scene& a, const scene::Scene& b) {
+double sector_difference(const scene::Scene& a, const scene::Scene& b) {
   double largest = 0;
   for (const double w : frequencies) {
     const auto x = scenes::response_at(a, w), y = scenes::response_at(b, w);
@@ -102,11 +96,12 @@ TEST_CASE("a sector whose faces meet the next one is one of a ring of masses and
           CAPTURE(elements, keys, sectors, order, structure);
           const Given given{sectors, order, keys, structure, elements};
           const scene::Scene whole = by_hand(given);
-          CHECK(difference(read(with_faces(given, Ring::sector), folder), whole) < 1e-10);
-          CHECK(difference(read(with_faces(given, Ring::full), folder), whole) < 1e-10);
+          CHECK(sector_difference(read(with_faces(given, Ring::sector), folder), whole) < 1e-10);
+          CHECK(sector_difference(read(with_faces(given, Ring::full), folder), whole) < 1e-10);
           if (sectors == 6 && order < 3)  // the wave the other way round
-            CHECK(difference(read(with_faces({6, -order, keys, structure, elements}, Ring::sector), folder),
-                             whole) > 1e-3);
+            CHECK(sector_difference(
+                      read(with_faces({6, -order, keys, structure, elements}, Ring::sector), folder), whole) >
+                  1e-3);
         }
 }
 
@@ -133,8 +128,8 @@ TEST_CASE("forces on the second face of a sector act on the next one") {
         push("q", row, 3, 0.1 * shape.imag());
       }
       const scene::Scene whole = by_hand(given, {}, 0, pushes);
-      CHECK(difference(read(with_faces(given, Ring::sector), folder), whole) < 1e-10);
-      CHECK(difference(read(with_faces(given, Ring::full), folder), whole) < 1e-10);
+      CHECK(sector_difference(read(with_faces(given, Ring::sector), folder), whole) < 1e-10);
+      CHECK(sector_difference(read(with_faces(given, Ring::full), folder), whole) < 1e-10);
     }
 }
 
@@ -146,8 +141,8 @@ TEST_CASE("a motion of the ground goes around a ring of sectors with faces") {
     Given given{6, 2, keys, "", friction};
     given.excitation =
         R"({"name": "g", "type": "base_acceleration", "shape": "r.mtx", "at": "pad", "cosine": 0.5, "sine": 0.1})";
-    CHECK(difference(read(with_faces(given, Ring::full), folder),
-                     by_hand(given, {}, 0, {{"g", -1, 1, 0.5, 0.1}})) < 1e-10);
+    CHECK(sector_difference(read(with_faces(given, Ring::full), folder),
+                            by_hand(given, {}, 0, {{"g", -1, 1, 0.5, 0.1}})) < 1e-10);
   }
 }
 
@@ -162,11 +157,11 @@ TEST_CASE("a rotor of sectors with faces stiffens with its speed, and has gyrosc
       Given plain = given;
       plain.structure = {};
       const scene::Scene whole = by_hand(plain, {}, 0.8);
-      CHECK(difference(read(with_faces(given, Ring::sector), folder), whole) < 1e-10);
-      CHECK(difference(read(with_faces(given, Ring::full), folder), whole) < 1e-10);
+      CHECK(sector_difference(read(with_faces(given, Ring::sector), folder), whole) < 1e-10);
+      CHECK(sector_difference(read(with_faces(given, Ring::full), folder), whole) < 1e-10);
       given.keys += R"(, "gyroscopic": "G.mtx")";  // between the second face and the blade
-      CHECK(difference(read(with_faces(given, Ring::sector), folder),
-                       read(with_faces(given, Ring::full), folder)) < 1e-10);
+      CHECK(sector_difference(read(with_faces(given, Ring::sector), folder),
+                              read(with_faces(given, Ring::full), folder)) < 1e-10);
     }
 }
 
@@ -184,9 +179,9 @@ TEST_CASE("the sectors of a ring with faces are mistuned each by its own matrix"
     whole.insert(whole.find(kp) + kp.size(),
                  R"(, {"name": "skew", "between": ["tip.z", {"next": "hub"}], "value": 0.07})");
     given.link = given.stiffness;
-    CHECK(difference(read(whole, folder), by_hand(given)) < 1e-10);
+    CHECK(sector_difference(read(whole, folder), by_hand(given)) < 1e-10);
     given.link[3] *= 1.001;
-    CHECK(difference(read(whole, folder), by_hand(given)) > 1e-6);
+    CHECK(sector_difference(read(whole, folder), by_hand(given)) > 1e-6);
   }
 }
 
@@ -214,7 +209,7 @@ TEST_CASE("peaks of a sector with faces are those of its ring") {
 
 // CalculiX 2.20 with *CYCLIC SYMMETRY MODEL, of the mesh of examples/disk_sector (mesh.awk, cyclic=1).
 TEST_CASE("natural frequencies of a bladed disk by nodal diameters are those of a finite-element program") {
-  const std::string path = ARCSLIP_SOURCE_DIR "/examples/disk_sector/scene.json";
+  const std::string path = source_folder() + "/examples/disk_sector/scene.json";
   const std::vector<double> first{548.2099, 538.1251, 570.4716, 671.3459, 735.3208, 762.2713, 769.6992};
   for (const bool full : {false, true})
     for (int diameter = 0; diameter <= 6; ++diameter) {
@@ -233,7 +228,7 @@ TEST_CASE("natural frequencies of a bladed disk by nodal diameters are those of 
       replace("\"order\": 7", "\"order\": 1");
       std::istringstream in(text);
       const scene::Scene s =
-          scene::read(in, test_catalogue::whole(), ARCSLIP_SOURCE_DIR "/examples/disk_sector");
+          scene::read(in, test_catalogue::whole(), source_folder() + "/examples/disk_sector");
       const auto branches = observables::frequency_response(s, {500, 800});
       REQUIRE(branches.size() == 1);
       double highest = 0, at = 0;

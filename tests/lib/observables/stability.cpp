@@ -46,8 +46,8 @@ scene::Scene masses_and_stop(int order) {
   return s;
 }
 
-scene::Scene duffing(const std::string& element, const std::string& more, double k, double c, double force,
-                     int order) {
+scene::Scene with_element(const std::string& element, const std::string& more, double k, double c,
+                          double force, int order) {
   auto s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
       "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 1}]},
@@ -142,7 +142,7 @@ TEST_CASE("a fold next to grazing is stable but for its own multiplier, whose er
 
 TEST_CASE("the small orbit of the double well doubles its period at the force known from elsewhere") {
   // x = 1 + y: -x + x^3 = 2 y + 3 y^2 + y^3.
-  const auto s = duffing("polynomial_spring", R"("coefficients": {"2": 3, "3": 1})", 2, 0.3, 0.1, 24);
+  const auto s = with_element("polynomial_spring", R"("coefficients": {"2": 3, "3": 1})", 2, 0.3, 0.1, 24);
   const auto branches = observables::parameter_response(s, {"f.cosine", 0.05, 0.3, 1.2, true});
   REQUIRE(branches.size() == 1);
   const auto found = events(branches[0], "period_doubling");
@@ -173,7 +173,7 @@ TEST_CASE("branches that begin at a period doubling are stable up to their own o
 }
 
 TEST_CASE("a Duffing oscillator is unstable between its folds alone, where a multiplier is 1") {
-  const auto s = duffing("cubic_spring", R"("stiffness": 0.1)", 1, 0.05, 0.18, 15);
+  const auto s = with_element("cubic_spring", R"("stiffness": 0.1)", 1, 0.05, 0.18, 15);
   const auto branch = response(s, 0.5, 1.6);
   const auto folds = events(branch, "fold");
   REQUIRE(folds.size() == 2);
@@ -190,7 +190,7 @@ TEST_CASE("a Duffing oscillator is unstable between its folds alone, where a mul
 }
 
 TEST_CASE("the symmetry of a motion breaks where its Jacobian in all harmonics is singular") {
-  const auto s = duffing("cubic_spring", R"("stiffness": 1)", 1, 0.1, 3, 21);
+  const auto s = with_element("cubic_spring", R"("stiffness": 1)", 1, 0.1, 3, 21);
   const auto branch = response(s, 0.5, 1.5);
   const auto found = events(branch, "symmetry_breaking");
   REQUIRE(found.size() == 2);
@@ -297,7 +297,7 @@ TEST_CASE("light damping and many sliders: multipliers next to 1 and at 0") {
 }
 
 TEST_CASE("curves of peaks and folds have the stability of their points") {
-  const auto s = duffing("cubic_spring", R"("stiffness": 0.1)", 1, 0.05, 0.18, 9);
+  const auto s = with_element("cubic_spring", R"("stiffness": 0.1)", 1, 0.05, 0.18, 9);
   const observables::CurveRange range{"f.cosine", 0.15, 0.25, 0.5, 1.8, true};
   for (const auto& branch : observables::fold_curves(s, range)) {
     CHECK(branch.points.size() > 10);

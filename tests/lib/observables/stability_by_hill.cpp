@@ -24,7 +24,7 @@ StabilityRequest by_hill() {
   return request;
 }
 
-scene::Scene duffing() {
+scene::Scene cubic_oscillator() {
   return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
       "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
@@ -40,9 +40,9 @@ TEST_CASE("Hill's method finds the multipliers of the variational equation, and 
   for (const double omega : {0.8, 1.6, 2.0}) {
     observables::PointSettings settings{omega};
     settings.stability = true;
-    const auto first = observables::point_responses(duffing(), settings);
+    const auto first = observables::point_responses(cubic_oscillator(), settings);
     settings.stability = by_hill();
-    const auto second = observables::point_responses(duffing(), settings);
+    const auto second = observables::point_responses(cubic_oscillator(), settings);
     REQUIRE(first.size() == second.size());
     for (std::size_t i = 0; i < first.size(); ++i) {
       REQUIRE(first[i].point.stability);
@@ -74,7 +74,7 @@ TEST_CASE("Hill's method refuses laws with memory, and the branch says so") {
 TEST_CASE("results have as many multipliers as the study asks for, and the verdict is of all of them") {
   observables::FrequencyRange range{0.3, 2.5, true};
   range.stability.multipliers = 1;
-  const auto branch = observables::frequency_response(duffing(), range).front();
+  const auto branch = observables::frequency_response(cubic_oscillator(), range).front();
   const auto all = observables::stability_quantities();
   const auto column =
       std::find_if(all.begin(), all.end(), [](const auto& q) { return q.path == "multipliers"; });

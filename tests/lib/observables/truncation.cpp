@@ -1,4 +1,5 @@
 #include "catch.hpp"
+#include "environment.hpp"
 
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/in_more_harmonics.hpp"
@@ -69,7 +70,7 @@ TEST_CASE("the estimate of the share of stick at a peak is its error, and 0 wher
 TEST_CASE("the estimate of the share of stick holds where the harmonics left out move the peak far") {
   // By 0.4 rad/s, half of the width of the peak.
   scene::Scene beam =
-      scene::read_file(ARCSLIP_SOURCE_DIR "/examples/cantilever/beam.json", test_catalogue::whole());
+      scene::read_file(source_folder() + "/examples/cantilever/beam.json", test_catalogue::whole());
   scene::set(beam, "damper.normal_load", 60);
   const auto damper_of = [&](int order) {
     beam.harmonics.order = order;
@@ -120,8 +121,7 @@ TEST_CASE("estimates of a structure with many modes above the harmonics are thos
   for (const Case& each :
        {Case{"cantilever/beam.json", {3, 7, 9}, 1, 5}, {"disk_sector/scene.json", {3, 9}, 4, 3}}) {
     CAPTURE(each.example);
-    scene::Scene s = scene::read_file(std::string(ARCSLIP_SOURCE_DIR "/examples/") + each.example,
-                                      test_catalogue::whole());
+    scene::Scene s = scene::read_file(source_folder() + "/examples/" + each.example, test_catalogue::whole());
     scene::set(s, "damper.normal_load", each.load);
     in_more_harmonics::Compared compared;
     for (const int order : each.orders) {
@@ -150,7 +150,7 @@ TEST_CASE("estimates of a structure with many modes above the harmonics are thos
 
 TEST_CASE("the flag follows the damping along a branch over it") {
   scene::Scene beam =
-      scene::read_file(ARCSLIP_SOURCE_DIR "/examples/cantilever/beam.json", test_catalogue::whole());
+      scene::read_file(source_folder() + "/examples/cantilever/beam.json", test_catalogue::whole());
   scene::set(beam, "damper.normal_load", 5);
   beam.harmonics.order = 3;
   const auto branch =

@@ -14,7 +14,7 @@ using namespace arcslip;
 
 namespace {
 
-constexpr double digits = 1e-8;  // of amplitudes: errors below are not looked at
+constexpr double error_floor = 1e-8;  // of amplitudes: errors below are not looked at
 
 }  // namespace
 
@@ -43,14 +43,14 @@ TEST_CASE(
       if (!exact) continue;
       const double error = std::abs(event.point.amplitude - exact->amplitude);
       if (event.nonsmooth) ++corners;
-      if (error > digits * exact->amplitude) CHECK(event.point.truncation_estimate > 0.25 * error);
+      if (error > error_floor * exact->amplitude) CHECK(event.point.truncation_estimate > 0.25 * error);
       const double moved = std::abs(event.point.omega - exact->omega);
-      if (!(moved > digits * exact->omega)) continue;
+      if (!(moved > error_floor * exact->omega)) continue;
       REQUIRE(event.point.location_estimate > 0);
       places.push_back(event.point.location_estimate / moved);
     }
     in_more_harmonics::compare(std::make_shared<const model::Model>(model::build(s)), kept, branch, 15,
-                               digits, between);
+                               error_floor, between);
   }
   CHECK(3 * flagged < events);
   CAPTURE(between.points, between.above_twice);

@@ -21,7 +21,7 @@ std::vector<std::string> lines(const std::string& text) {
   return all;
 }
 
-std::vector<std::string> written(const Results& results, const std::string& table) {
+std::vector<std::string> csv_lines(const Results& results, const std::string& table) {
   std::ostringstream text;
   write_csv(text, results, table);
   return lines(text.str());
@@ -39,22 +39,22 @@ TEST_CASE("a table as CSV has the study, what is set, the number of the result, 
   Results results = made_up::results();
   results.schemas.pop_back();
   results.results.pop_back();
-  CHECK(written(results, "rows") ==
+  CHECK(csv_lines(results, "rows") ==
         std::vector<std::string>{"study,load (N),thing,x (m),i,yes,word,list,d.load (N),d.deep.er,last",
                                  "first,2.5,1,0.1,1,true,\"'=a, \"\"b\"\"\",\"[1.0,0.5]\",3,3,0.2",
                                  "first,2.5,1,-0,-2,false,,[],,,-0"});
-  CHECK(written(results, "marks").size() == 2);
-  CHECK(written(results, "none") == std::vector<std::string>{"study,load (N),thing"});
+  CHECK(csv_lines(results, "marks").size() == 2);
+  CHECK(csv_lines(results, "none") == std::vector<std::string>{"study,load (N),thing"});
 }
 
 TEST_CASE("a table as CSV that several kinds have holds the columns of all") {
-  CHECK(written(made_up::results(), "rows")[3] == ",,,1,0.1,,,,,3,,");
+  CHECK(csv_lines(made_up::results(), "rows")[3] == ",,,1,0.1,,,,,3,,");
 }
 
 TEST_CASE("a parameter that one study sets and another is over is one column") {
   Results results = made_up::results();
   results.schemas[1].tables[0].columns[0] = {{"load"}, Type::number, "N"};
-  const auto rows = written(results, "rows");
+  const auto rows = csv_lines(results, "rows");
   CHECK(rows[0] == "study,thing,other,x (m),i,yes,word,list,d.load (N),d.deep.er,last,load (N)");
   CHECK(rows[2].ends_with(",2.5"));
   CHECK(rows[3].ends_with(",0.1"));

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-Json written(const Results& results) {
+Json written_json(const Results& results) {
   std::ostringstream text;
   write_json(text, results);
   return Json::parse(text.str());
@@ -24,7 +24,7 @@ Json written(const Results& results) {
 }  // namespace
 
 TEST_CASE("JSON has a list for each kind of results, and the format of several") {
-  const Json json = written(made_up::results());
+  const Json json = written_json(made_up::results());
   CHECK(json["format"] == "arcslip-results-1");
   CHECK(json["program"] == "program 1");
   CHECK(json["title"] == "A \"title\"\n");
@@ -35,7 +35,7 @@ TEST_CASE("JSON has a list for each kind of results, and the format of several")
 }
 
 TEST_CASE("a result in JSON has its head, a list of rows for each table, and its end") {
-  const Json json = written(made_up::results())["things"][0];
+  const Json json = written_json(made_up::results())["things"][0];
   const Json second = {{"x", -0.0},
                        {"i", -2},
                        {"yes", false},
@@ -65,17 +65,17 @@ TEST_CASE("a result in JSON has its head, a list of rows for each table, and its
 
 TEST_CASE("JSON has the reduction of the structure, and the doubt about a result, where there is one") {
   Results results = made_up::results();
-  CHECK_FALSE(written(results).contains("reduction"));
-  CHECK_FALSE(written(results)["things"][0].contains("doubt"));
+  CHECK_FALSE(written_json(results).contains("reduction"));
+  CHECK_FALSE(written_json(results)["things"][0].contains("doubt"));
   results.header.reduction = {{"rows", 5}, {"error", 1.5e-12}};
   results.results[0].end.doubt = "hardly \"so\"";
-  const Json json = written(results);
+  const Json json = written_json(results);
   CHECK(json["reduction"] == Json{{"rows", 5}, {"error", 1.5e-12}});
   CHECK(json["things"][0]["doubt"] == "hardly \"so\"");
 }
 
 TEST_CASE("a table by columns is an object of lists") {
-  const Json json = written(made_up::results())["others"][0];
+  const Json json = written_json(made_up::results())["others"][0];
   CHECK(json["rows"] == Json{{"x", {0.1, -0.0}}, {"elements", {{"d", {{"load", {3.0, 7.0}}}}}}});
   CHECK_FALSE(json.contains("study"));
 }
@@ -83,15 +83,15 @@ TEST_CASE("a table by columns is an object of lists") {
 TEST_CASE("lists without results stand in JSON, and one kind has its own format") {
   Results results = made_up::results();
   results.results.clear();
-  CHECK(written(results)["things"] == Json::array());
-  CHECK(written(results)["others"] == Json::array());
-  CHECK_FALSE(written(results).contains("best"));
+  CHECK(written_json(results)["things"] == Json::array());
+  CHECK(written_json(results)["others"] == Json::array());
+  CHECK_FALSE(written_json(results).contains("best"));
   results.schemas.pop_back();
-  CHECK(written(results)["format"] == "things-1");
+  CHECK(written_json(results)["format"] == "things-1");
   results = made_up::results();
   results.results.push_back(results.results[0]);
-  CHECK(written(results)["things"].size() == 2);  // one list, though another kind came between
-  CHECK_FALSE(written(results).contains("best"));
+  CHECK(written_json(results)["things"].size() == 2);  // one list, though another kind came between
+  CHECK_FALSE(written_json(results).contains("best"));
 }
 
 TEST_CASE("rows may come in parts, those of several tables in turn") {

@@ -11,7 +11,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 using namespace arcslip;
 
@@ -25,7 +24,7 @@ std::string bar(const std::string& kind, int elements, const std::string& ends,
          (kind == "beam" ? R"( "inertia": 0.25,)" : "") + " \"ends\": [" + ends + "]" + more + "}";
 }
 
-std::string scene_of(const std::string& structure, const std::string& at) {
+std::string bar_scene(const std::string& structure, const std::string& at) {
   return R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {)" + structure + R"(},
     "elements": [{"name": "d", "type": "jenkins", "at": ")" +
          at + R"(", "stiffness": 30, "friction_coefficient": 0.5, "normal_load": 0.1}],
@@ -35,14 +34,9 @@ std::string scene_of(const std::string& structure, const std::string& at) {
     "studies": [{"kind": "frf", "from": 2, "to": 20}]})";
 }
 
-scene::Scene read(const std::string& whole) {
-  std::istringstream in(whole);
-  return scene::read(in, test_catalogue::whole());
-}
-
-std::string fault(const std::string& structure) {
+std::string bar_fault(const std::string& structure) {
   try {
-    observables::prepare(read(scene_of(structure, "p")), {});
+    observables::prepare(scenes::parse(bar_scene(structure, "p")), {});
   } catch (const scene::SceneError& error) {
     return error.what();
   }
@@ -50,7 +44,7 @@ std::string fault(const std::string& structure) {
 }
 
 Eigen::VectorXd natural_frequencies(const std::string& structure) {
-  const model::Model model = model::build(read(scene_of(structure, "p")));
+  const model::Model model = model::build(scenes::parse(bar_scene(structure, "p")));
   const auto p = model::defaults(model);
   return continuation::symmetric_eigenvalues(model::stiffness_matrix(model, p), model::mass_matrix(model, p))
       .cwiseMax(0.0)
@@ -95,57 +89,58 @@ TEST_CASE("a long beam is reduced, with the response of the whole one") {
   std::string reduced = whole;
   reduced.insert(reduced.size() - 1, R"(, "highest_frequency": 500)");
   for (const double omega : {0.8, 1.9, 7.0}) {
-    const auto a = scenes::response_at(read(scene_of(whole, "p")), omega),
-               b = scenes::response_at(read(scene_of(reduced, "p")), omega);
+    const auto a = scenes::response_at(scenes::parse(bar_scene(whole, "p")), omega),
+               b = scenes::response_at(scenes::parse(bar_scene(reduced, "p")), omega);
     CHECK(b.amplitude == Approx(a.amplitude).epsilon(1e-7));
     CHECK(b.energy_input == Approx(a.energy_input).epsilon(1e-7));
   }
 }
 
 TEST_CASE("points of a beam are degrees of freedom, written and read again") {
-  const scene::Scene s = read(scene_of(
+  const scene::Scene s = scenes::parse(bar_scene(
       bar("beam", 4, R"("clamped", "pinned")", R"(, "points": {"root": 0, "p": 0.5, "end": 2})"), "p"));
   CHECK(s.dofs == std::vector<std::string>{"p", "p.slope", "end.slope"});
-  CHECK(read(scene::write(s)) == s);
+  CHECK(scenes::parse(scene::write(s)) == s);
   scene::check(s);
-  CHECK(scene::hash(s) != scene::hash(read(scene_of(
+  CHECK(scene::hash(s) != scene::hash(scenes::parse(bar_scene(
                               bar("beam", 5, R"("clamped", "pinned")", R"(, "points": {"p": 0.8})"), "p"))));
   // A rectangular section.
   std::string section = bar("beam", 4, R"("clamped", "pinned")", R"(, "points": {"p": 0.5})");
   section.replace(section.find(R"("area": 0.5, "inertia": 0.25)"), 28, R"("width": 0.3, "height": 0.2)");
-  CHECK(read(scene_of(section, "p")).matrices->bar->area == Approx(0.06).epsilon(1e-14));
-  CHECK(read(scene_of(section, "p")).matrices->bar->inertia == Approx(0.0002).epsilon(1e-14));
+  CHECK(scenes::parse(bar_scene(section, "p")).matrices->bar->area == Approx(0.06).epsilon(1e-14));
+  CHECK(scenes::parse(bar_scene(section, "p")).matrices->bar->inertia == Approx(0.0002).epsilon(1e-14));
 }
 
 TEST_CASE("a spring by a natural frequency needs a mass that is not in matrices") {
-  CHECK(contains(fault(bar("beam", 4, R"("clamped", "free")", R"(, "points": {"p": 1})") +
-                       R"(, "springs": [{"name": "k", "at": "p", "frequency": 3}])"),
+  CHECK(contains(bar_fault(bar("beam", 4, R"("clamped", "free")", R"(, "points": {"p": 1})") +
+                           R"(, "springs": [{"name": "k", "at": "p", "frequency": 3}])"),
                  "found the degree of freedom \"p\" of a structure from matrices, must be a \"value\""));
 }
 
 TEST_CASE("what is wrong with a beam is told") {
   const std::string ends = R"("clamped", "free")", points = R"(, "points": {"p": 1})";
-  CHECK(fault(bar("beam", 4, ends, points)) == "none");
-  CHECK(contains(fault(bar("beam", 0, ends, points)), "/structure/beam/elements: found 0"));
-  CHECK(contains(fault(bar("beam", 4, R"("clamped")", points)), "found 1 ends, must be a list of two of"));
-  CHECK(contains(fault(bar("rod", 4, R"("pinned", "free")", points)),
+  CHECK(bar_fault(bar("beam", 4, ends, points)) == "none");
+  CHECK(contains(bar_fault(bar("beam", 0, ends, points)), "/structure/beam/elements: found 0"));
+  CHECK(
+      contains(bar_fault(bar("beam", 4, R"("clamped")", points)), "found 1 ends, must be a list of two of"));
+  CHECK(contains(bar_fault(bar("rod", 4, R"("pinned", "free")", points)),
                  "must be one of \"clamped\", \"free\" for a rod"));
-  CHECK(contains(fault(bar("beam", 4, ends, R"(, "points": {"p": 0.7})")),
+  CHECK(contains(bar_fault(bar("beam", 4, ends, R"(, "points": {"p": 0.7})")),
                  "/structure/beam/points/p: found 0.7 m, must be at a node, a multiple of length/elements"));
-  CHECK(
-      contains(fault(bar("beam", 4, ends, R"(, "points": {"p": 3})")), "/structure/beam/points/p: found 3"));
-  CHECK(contains(fault(bar("beam", 4, ends, R"(, "points": {"p": 0})")), "found no point that moves"));
-  CHECK(contains(fault(bar("rod", 1, R"("clamped", "clamped")", R"(, "points": {"p": 0})")),
+  CHECK(contains(bar_fault(bar("beam", 4, ends, R"(, "points": {"p": 3})")),
+                 "/structure/beam/points/p: found 3"));
+  CHECK(contains(bar_fault(bar("beam", 4, ends, R"(, "points": {"p": 0})")), "found no point that moves"));
+  CHECK(contains(bar_fault(bar("rod", 1, R"("clamped", "clamped")", R"(, "points": {"p": 0})")),
                  "found no node that moves"));
-  CHECK(
-      contains(fault(bar("beam", 4, ends, R"(, "points": {"ground": 1})")), "reserved for the fixed frame"));
-  CHECK(contains(fault(bar("beam", 4, ends, R"(, "points": {"p": 1}, "width": 1)")),
+  CHECK(contains(bar_fault(bar("beam", 4, ends, R"(, "points": {"ground": 1})")),
+                 "reserved for the fixed frame"));
+  CHECK(contains(bar_fault(bar("beam", 4, ends, R"(, "points": {"p": 1}, "width": 1)")),
                  "beside \"width\" and \"height\", which stand in its place"));
-  CHECK(contains(fault(bar("beam", 400, ends, points)), "800 rows without \"highest_frequency\""));
-  CHECK(contains(fault(bar("beam", 4, ends, points) + ", " + bar("rod", 4, ends, points)),
+  CHECK(contains(bar_fault(bar("beam", 400, ends, points)), "800 rows without \"highest_frequency\""));
+  CHECK(contains(bar_fault(bar("beam", 4, ends, points) + ", " + bar("rod", 4, ends, points)),
                  "/structure/rod: found the key \"rod\" beside \"beam\", must be one of them"));
   std::string huge = bar("beam", 4, ends, points);
   huge.replace(huge.find("\"young\": 40"), 11, "\"young\": 1e308");
   huge.replace(huge.find("\"inertia\": 0.25"), 15, "\"inertia\": 1e9");
-  CHECK(contains(fault(huge), "whose products overflow"));
+  CHECK(contains(bar_fault(huge), "whose products overflow"));
 }

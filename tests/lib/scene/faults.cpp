@@ -7,6 +7,7 @@
 #include "catalogue.hpp"
 #include "catch.hpp"
 #include "lib/scene/folder.hpp"
+#include "lib/scene/read_text.hpp"
 
 using namespace arcslip::scene;
 using namespace arcslip::scene::test;
@@ -28,11 +29,6 @@ std::vector<Fault> faults_of(std::istream& in) {
     return error.faults();
   }
   return {};
-}
-
-std::vector<Fault> faults_of(const std::string& text) {
-  std::istringstream in(text);
-  return faults_of(in);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ std::string damping_file() {
   return "%%MatrixMarket matrix coordinate real general\n5 5 4\n2 2 0.3\n3 3 0.3\n2 3 -0.3\n3 2 -0.3\n";
 }
 
-Folder chain() {
+Folder chain_files() {
   return {{"M.mtx", mass_file()},
           {"K.mtx", stiffness_file()},
           {"C.mtx", damping_file()},
@@ -68,14 +68,9 @@ std::string scene_of(const std::string& structure) {
     "studies": [{"kind": "frf", "from": 2, "to": 20}]})";
 }
 
-scene::Scene read(const std::string& whole, const std::string& folder) {
-  std::istringstream in(whole);
-  return scene::read(in, test_catalogue::whole(), folder);
-}
-
-std::string fault(const std::string& structure, const Folder& folder) {
+std::string fault_in_folder(const std::string& structure, const Folder& folder) {
   try {
-    observables::prepare(read(scene_of(structure), folder.path()), {});
+    observables::prepare(scenes::parse(scene_of(structure), folder.path()), {});
   } catch (const scene::SceneError& error) {
     return error.what();
   }
@@ -98,15 +93,15 @@ void check_same(const scene::Scene& one, const scene::Scene& other, double toler
 }  // namespace
 
 TEST_CASE("a structure from matrices is that of its masses and springs") {
-  const Folder folder = chain();
-  const scene::Scene by_parts = read(scene_of(parts), folder.path());
+  const Folder folder = chain_files();
+  const scene::Scene by_parts = scenes::parse(scene_of(parts), folder.path());
   SECTION("whole") {
-    check_same(by_parts, read(scene_of(files), folder.path()), 1e-11);
+    check_same(by_parts, scenes::parse(scene_of(files), folder.path()), 1e-11);
   }
   SECTION("reduced to the rows that the scene uses") {
     std::string text = scene_of(files);
     text.replace(text.find("\"damping\": \"C"), 0, "\"highest_frequency\": 200, ");
-    scene::Scene s = read(text, folder.path());
+    scene::Scene s = scenes::parse(text, folder.path());
     CHECK(contains(observables::prepare(s, {}), "of 5 rows was reduced to 2 of them and 3 coordinates"));
     check_same(by_parts, s, 1e-10);
   }
@@ -137,7 +132,7 @@ TEST_CASE("a long structure from matrices with dampers anywhere is that of its m
   // Beside the matrix of dampers one of the scene.
   const std::string tip = R"({"name": "tip", "between": ["x60", "x41"], "value": 3})";
   const auto scene = [&](const std::string& structure) {
-    return read(
+    return scenes::parse(
         R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {)" + structure + R"(},
       "elements": [{"name": "d", "type": "jenkins", "at": "x2", "stiffness": 300, "friction_coefficient": 0.5,
                     "normal_load": 0.4}],
@@ -159,12 +154,12 @@ TEST_CASE("a long structure from matrices with dampers anywhere is that of its m
 }
 
 TEST_CASE("rigid friction stops the same motions of matrices alone as of masses and springs") {
-  const Folder folder = chain();
+  const Folder folder = chain_files();
   const auto with_rigid_friction = [&](const std::string& structure) {
     std::string text = scene_of(structure);
     text.replace(text.find("\"jenkins\""), 9, "\"coulomb\"");
     text.erase(text.find("\"stiffness\": 300, "), 18);
-    return read(text, folder.path());
+    return scenes::parse(text, folder.path());
   };
   scene::Scene masses = with_rigid_friction(parts);
   masses.dofs.pop_back();  // with what acts on it alone, and the mass at the tip
@@ -187,7 +182,7 @@ TEST_CASE("rigid friction stops the same motions of matrices alone as of masses 
 }
 
 TEST_CASE("damping in proportion to the structure is that of its dampers") {
-  const Folder folder = chain();
+  const Folder folder = chain_files();
   std::string structure = files;
   structure.erase(structure.find(", \"damping\": \"C.mtx\""), 20);
   const std::string rayleigh = R"(, "damping": [{"name": "steel", "type": "rayleigh", "beta": 2e-3}])";
@@ -198,23 +193,23 @@ TEST_CASE("damping in proportion to the structure is that of its dampers") {
     {"name": "c3", "between": ["c", "b"], "value": 2.4}, {"name": "c4", "between": ["d", "c"], "value": 2.6},
     {"name": "c5", "between": ["end.x", "d"], "value": 2.8},
     {"name": "c_t", "between": ["tuned", "end.x"], "value": 0.12}])";
-  const scene::Scene by_parts = read(scene_of(dampers), folder.path());
-  check_same(by_parts, read(scene_of(structure + rayleigh), folder.path()), 1e-11);
+  const scene::Scene by_parts = scenes::parse(scene_of(dampers), folder.path());
+  check_same(by_parts, scenes::parse(scene_of(structure + rayleigh), folder.path()), 1e-11);
   // The parameter is one of the scene.
-  scene::Scene s =
-      read(scene_of(structure + R"(, "damping": [{"name": "steel", "type": "rayleigh", "alpha": 0.5}])"),
-           folder.path());
+  scene::Scene s = scenes::parse(
+      scene_of(structure + R"(, "damping": [{"name": "steel", "type": "rayleigh", "alpha": 0.5}])"),
+      folder.path());
   scene::set(s, "steel.alpha", 0);
   scene::set(s, "steel.beta", 2e-3);
   check_same(by_parts, s, 1e-11);
 }
 
 TEST_CASE("a scene with matrices is written, read, checked and hashed with its files") {
-  const Folder folder = chain();
-  const scene::Scene s = read(scene_of(files), folder.path());
+  const Folder folder = chain_files();
+  const scene::Scene s = scenes::parse(scene_of(files), folder.path());
   CHECK(s.dofs == std::vector<std::string>{"end.x", "b", "tuned"});
   CHECK(s.matrices->rows == std::vector<int>{4, 1});
-  CHECK(read(scene::write(s), folder.path()) == s);
+  CHECK(scenes::parse(scene::write(s), folder.path()) == s);
   scene::check(s);
   const std::string hash = scene::hash(s);
   folder.write("out/scene.json", "");
@@ -225,18 +220,18 @@ TEST_CASE("a scene with matrices is written, read, checked and hashed with its f
   std::string changed = stiffness_file();
   changed.replace(changed.find("2100"), 4, "2101");
   folder.write("K.mtx", changed);
-  CHECK(scene::hash(read(scene_of(files), folder.path())) != hash);
+  CHECK(scene::hash(scenes::parse(scene_of(files), folder.path())) != hash);
 }
 
 TEST_CASE("what is wrong with matrices is told with file, line and cause") {
-  const Folder folder = chain();
+  const Folder folder = chain_files();
   const auto with = [&](const std::string& name, const std::string& text) {
-    const Folder own = chain();
+    const Folder own = chain_files();
     own.write(name, text);
-    return fault(files, own);
+    return fault_in_folder(files, own);
   };
   const std::string head = "%%MatrixMarket matrix coordinate real general\n";
-  CHECK(fault(files, folder) == "none");
+  CHECK(fault_in_folder(files, folder) == "none");
   CHECK(contains(with("K.mtx", "nothing"), "/structure/matrices/stiffness: \"K.mtx\", line 1"));
   CHECK(contains(with("K.mtx", head + "2 2 1\n1 1 nan\n"), "\"K.mtx\", line 3: found \"nan\""));
   CHECK(contains(with("M.mtx", head + "2 2 2\n1 1 1\n2 2 1\n"),
@@ -262,10 +257,10 @@ TEST_CASE("what is wrong with matrices is told with file, line and cause") {
   CHECK(contains(with("M.mtx", head + "5 4 1\n3 3 1\n"), "with 5 rows and 4 columns, must be square"));
   CHECK(contains(with("M.mtx", head + "5 5 0\n"), "/structure/matrices/mass: found no mass"));
   {
-    const Folder own = chain();
+    const Folder own = chain_files();
     own.write("M.mtx", head + "5 5 1\n5 5 1\n");
     own.write("K.mtx", head + "5 5 1\n5 5 1\n");
-    CHECK(contains(fault(files, own),
+    CHECK(contains(fault_in_folder(files, own),
                    "/structure/matrices: found neither mass nor stiffness in row 1; 2; 3; and 1 more, must "
                    "have one of them on the diagonal in each row"));
   }
@@ -281,20 +276,22 @@ TEST_CASE("what is wrong with matrices is told with file, line and cause") {
   CHECK(contains(with("names.csv", "name,row\n"), "found no names in \"names.csv\""));
   CHECK(contains(with("names.csv", "name,row\ntuned,2\nend.x,5\nb,1\n"),
                  "which is also a row of the matrices"));
-  CHECK(contains(fault(R"("names": "names.csv", "dofs": ["a"])", folder), "without \"matrices\""));
-  CHECK(contains(fault(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx"})", folder), "\"names\""));
-  CHECK(contains(
-      fault(R"("matrices": {"mass": "none.mtx", "stiffness": "K.mtx"}, "names": "names.csv")", folder),
-      "found \"none.mtx\", which cannot be read"));
+  CHECK(contains(fault_in_folder(R"("names": "names.csv", "dofs": ["a"])", folder), "without \"matrices\""));
+  CHECK(contains(fault_in_folder(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx"})", folder),
+                 "\"names\""));
+  CHECK(
+      contains(fault_in_folder(
+                   R"("matrices": {"mass": "none.mtx", "stiffness": "K.mtx"}, "names": "names.csv")", folder),
+               "found \"none.mtx\", which cannot be read"));
 }
 
 TEST_CASE("motions of the ground are refused with matrices without a shape") {
-  const Folder folder = chain();
+  const Folder folder = chain_files();
   std::string text = scene_of(files);
   text.replace(text.find("\"at\": \"end.x\", \"cosine\": 1"), 26,
                "\"type\": \"base_acceleration\", \"cosine\": 1");
   try {
-    read(text, folder.path());
+    scenes::parse(text, folder.path());
     FAIL("accepted");
   } catch (const scene::SceneError& error) {
     CHECK(contains(error.what(), "/excitation/0/type: found \"base_acceleration\" without \"shape\""));
@@ -302,18 +299,19 @@ TEST_CASE("motions of the ground are refused with matrices without a shape") {
 }
 
 TEST_CASE("a structure that cannot be reduced is told with the row at fault") {
-  const Folder folder = chain();
+  const Folder folder = chain_files();
   std::string text = stiffness_file();
   text.replace(text.find("4 3 -1300"), 9, "4 3 -9300");  // indefinite, in rows that are not kept
   folder.write("K.mtx", text);
-  CHECK(contains(fault(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "highest_frequency": 10},
+  CHECK(contains(
+      fault_in_folder(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "highest_frequency": 10},
                        "names": "names.csv")",
-                       folder),
-                 "/structure/matrices: the matrices cannot be reduced"));
+                      folder),
+      "/structure/matrices: the matrices cannot be reduced"));
 }
 
 TEST_CASE("a structure whose lowest natural frequency is lost in the last digits of its entries is told") {
-  const Folder folder = chain();
+  const Folder folder = chain_files();
   folder.write("M.mtx",
                "%%MatrixMarket matrix coordinate real symmetric\n5 5 5\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n5 5 1\n");
   std::string text = "%%MatrixMarket matrix coordinate real symmetric\n5 5 9\n1 1 1000000000001\n";
@@ -322,19 +320,20 @@ TEST_CASE("a structure whose lowest natural frequency is lost in the last digits
     text += row + " " + row + (i < 5 ? " 2e12\n" : " 1e12\n") + row + " " + before + " -1e12\n";
   }
   folder.write("K.mtx", text);
-  CHECK(contains(fault(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "highest_frequency": 10},
+  CHECK(contains(
+      fault_in_folder(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "highest_frequency": 10},
                        "names": "names.csv")",
-                       folder),
-                 "/structure/matrices: the matrices cannot be reduced: the last digits of their entries"));
+                      folder),
+      "/structure/matrices: the matrices cannot be reduced: the last digits of their entries"));
 }
 
 TEST_CASE("a structure that floats says so, and drifts by its name where it has one") {
-  const Folder folder = chain();
+  const Folder folder = chain_files();
   const auto first_message = [&](const std::string& key) {
     std::string whole = scene_of(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx")" + key +
                                  R"(}, "names": "names.csv")");
     whole.replace(whole.find("\"cosine\": 1"), 11, "\"cosine\": 1, \"harmonic\": 2");
-    const scene::Scene s = read(whole, folder.path());
+    const scene::Scene s = scenes::parse(whole, folder.path());
     return observables::prepare(s, {}) + "\n" +
            observables::frequency_response(s, {2, 20}).at(0).stop.message;
   };
@@ -358,12 +357,12 @@ TEST_CASE("a structure that floats says so, and drifts by its name where it has 
 }
 
 TEST_CASE("results have the reduction, and a doubt where harmonics are beyond its highest frequency") {
-  const Folder folder = chain();
+  const Folder folder = chain_files();
   const auto run = [&](double highest) {
     std::string text = scene_of(files);  // 5 times 20 rad/s
     text.replace(text.find("\"damping\": \"C"), 0,
                  "\"highest_frequency\": " + std::to_string(highest) + ", ");
-    return studies::run(read(text, folder.path()));
+    return studies::run(scenes::parse(text, folder.path()));
   };
   const results::Results enough = run(100), too_low = run(99);
   REQUIRE(enough.results.size() == 1);
@@ -376,11 +375,11 @@ TEST_CASE("results have the reduction, and a doubt where harmonics are beyond it
   CHECK(contains(json.str(), R"("reduction": {"rows":5,"kept":2,"coordinates":3,"error":)"));
   CHECK(contains(json.str(), R"("highest_frequency":99.0})"));
   CHECK(contains(json.str(), R"("doubt": "harmonics beyond)"));
-  CHECK(studies::header(read(scene_of(files), folder.path())).reduction.empty());
+  CHECK(studies::header(scenes::parse(scene_of(files), folder.path())).reduction.empty());
 }
 
 TEST_CASE("large matrices need the highest frequency to which they are reduced") {
-  const Folder folder = chain();
+  const Folder folder = chain_files();
   std::string K = "%%MatrixMarket matrix coordinate real symmetric\n600 600 1199\n1 1 2\n", M = K;
   for (int i = 2; i <= 600; ++i) {
     K += std::to_string(i) + " " + std::to_string(i) + " 2\n" + std::to_string(i) + " " +
@@ -390,7 +389,7 @@ TEST_CASE("large matrices need the highest frequency to which they are reduced")
   }
   folder.write("K.mtx", K);
   folder.write("M.mtx", M);
-  CHECK(
-      contains(fault(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx"}, "names": "names.csv")", folder),
-               "found matrices of 600 rows without \"highest_frequency\""));
+  CHECK(contains(
+      fault_in_folder(R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx"}, "names": "names.csv")", folder),
+      "found matrices of 600 rows without \"highest_frequency\""));
 }

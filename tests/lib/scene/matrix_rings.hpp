@@ -93,6 +93,10 @@ struct Given {
   std::vector<double> stiffness{}, link{}, mass{}, load{};
 };
 
+/// A key of "matrices", and angular frequencies below what it keeps.
+inline const std::string reduced = R"(, "highest_frequency": 60)";
+inline const std::vector<double> frequencies{0.4, 0.7, 0.95, 1.2, 1.6, 2.3, 3.1};
+
 inline const std::string friction = R"({"name": "damper", "type": "jenkins",
   "between": ["tip.z", {"next": "tip.z"}], "stiffness": 0.4, "friction_coefficient": 0.5, "normal_load": 0.9})";
 inline const std::string forces =
@@ -224,6 +228,11 @@ inline scene::Scene by_hand(const Given& given, const Sector& sector = {}, doubl
                        R"(], "dampers": [)" + dampers + "]" + given.structure + R"(}, "elements": [)" +
                        elements + R"(], "excitation": [)" + excitation + R"(], "harmonics": {"order": )" +
                        std::to_string(given.harmonics) + R"(}, "response": [)" + tips + ", " + hubs + "]}");
+}
+
+/// How far a is from b, relative.
+inline double off(double a, double b) {
+  return std::abs(a - b) / std::abs(b);
 }
 
 }  // namespace matrix_rings

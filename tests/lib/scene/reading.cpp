@@ -11,6 +11,7 @@
 #include "bad_scenes.hpp"
 #include "catalogue.hpp"
 #include "catch.hpp"
+#include "environment.hpp"
 #include "lib/scene/read_text.hpp"
 
 using namespace arcslip::scene;
@@ -23,7 +24,7 @@ using arcslip::observables::TimeSettings;
 
 TEST_CASE("the scene of the paper is read with the paper's numbers") {
   const Scene scene =
-      read_file(ARCSLIP_SOURCE_DIR "/examples/al_sayed_2011/scene.json", test_catalogue::whole());
+      read_file(source_folder() + "/examples/al_sayed_2011/scene.json", test_catalogue::whole());
   CHECK(scene.title == "Blade to ground with a friction damper (Al Sayed et al. 2011)");
   CHECK(scene.frequency_unit == FrequencyUnit::hertz);
   CHECK(scene.dofs == std::vector<std::string>{"blade"});

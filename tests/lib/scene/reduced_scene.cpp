@@ -10,19 +10,13 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 using namespace arcslip;
 
 namespace {
 
-scene::Scene read(const std::string& whole, const std::string& folder) {
-  std::istringstream in(whole);
-  return scene::read(in, test_catalogue::whole(), folder);
-}
-
 // Twelve masses in two planes, free or held by their first springs, with disks and rotating damping.
-Folder rotor(bool held) {
+Folder rotor_files(bool held) {
   const int n = 12;
   std::string M, K, C, G, N, p = "%%MatrixMarket matrix array real general\n24 2\n";
   int k = 0, g = 0;
@@ -57,7 +51,8 @@ Folder rotor(bool held) {
           {"nodes.csv", "name,row\nend,12\nunused,9\nend.y,24\nrub,4\n"}};
 }
 
-std::string scene_of(const std::string& matrices, const std::string& more, const std::string& excitation) {
+std::string reduced_rotor_scene(const std::string& matrices, const std::string& more,
+                                const std::string& excitation) {
   return R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {"matrices": {
       "mass": "mass.mtx", "stiffness": "stiff.mtx", "damping": "damp.mtx", "unsymmetric": ["damping"],
       "highest_frequency": 200)" +
@@ -74,7 +69,7 @@ std::string scene_of(const std::string& matrices, const std::string& more, const
 scene::Scene written(const scene::Scene& s, const Folder& folder) {
   const model::ReducedScene reduced = model::reduced_scene(s, folder.path());
   for (const auto& [name, text] : reduced.files) folder.write(name, text);
-  return read(reduced.scene, folder.path());
+  return scenes::parse(reduced.scene, folder.path());
 }
 
 const std::string push = R"({"name": "f", "at": "end", "cosine": 1})";
@@ -83,9 +78,9 @@ const std::string push = R"({"name": "f", "at": "end", "cosine": 1})";
 
 TEST_CASE(
     "a reduced rotor in files has the responses of the scene, at every speed and under loads on all rows") {
-  const Folder source = rotor(true);
-  scene::Scene s = read(
-      scene_of(
+  const Folder source = rotor_files(true);
+  scene::Scene s = scenes::parse(
+      reduced_rotor_scene(
           R"(, "gyroscopic": "gyro.mtx", "circulatory": "rotating.mtx", "stiffness_speed_squared": "K2.mtx")",
           R"(, "rotation": {"name": "rotor", "speed": 4, "highest_speed": 9},
                   "damping": [{"name": "zeta", "type": "modal", "ratio": 0.003}])",
@@ -111,8 +106,8 @@ TEST_CASE(
 }
 
 TEST_CASE("a reduced structure that floats, and a beam, are written and read again") {
-  const Folder source = rotor(false), folder, other;
-  const scene::Scene floating = read(scene_of("", "", push), source.path());
+  const Folder source = rotor_files(false), folder, other;
+  const scene::Scene floating = scenes::parse(reduced_rotor_scene("", "", push), source.path());
   const scene::Scene again = written(floating, folder);
   const std::string bar = R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
     "beam": {"elements": 30, "length": 1, "young": 2e11, "density": 7800, "width": 0.05, "height": 0.02,
@@ -121,7 +116,7 @@ TEST_CASE("a reduced structure that floats, and a beam, are written and read aga
                   "normal_load": 4}],
     "excitation": [{"name": "f", "at": "tip", "cosine": 1}], "response": {"at": "tip.slope"},
     "harmonics": {"order": 5}, "studies": [{"kind": "frf", "from": 2, "to": 20}]})";
-  const scene::Scene beam = read(bar, other.path());
+  const scene::Scene beam = scenes::parse(bar, other.path());
   const scene::Scene beam_again = written(beam, other);
   CHECK(beam_again.matrices->size() < 64);
   for (const double omega : {3.0, 9.0, 33.0}) {
@@ -133,7 +128,7 @@ TEST_CASE("a reduced structure that floats, and a beam, are written and read aga
 }
 
 TEST_CASE("what has no reduced files is told") {
-  const Folder source = rotor(true);
+  const Folder source = rotor_files(true);
   const auto refused = [&](const scene::Scene& s) -> std::string {
     try {
       model::reduced_scene(s, source.path());
@@ -145,9 +140,10 @@ TEST_CASE("what has no reduced files is told") {
   CHECK(contains(
       refused(scenes::chain(3, false)),
       "the structure is not reduced: give its matrices, its beam or its rod a \"highest_frequency\""));
-  const scene::Scene moved =
-      read(scene_of("", "", R"({"name": "quake", "type": "base_acceleration", "cosine": 1, "shape": "p.mtx",
+  const scene::Scene moved = scenes::parse(
+      reduced_rotor_scene("", "",
+                          R"({"name": "quake", "type": "base_acceleration", "cosine": 1, "shape": "p.mtx",
                            "direction": {"tuned": 1}})"),
-           source.path());
+      source.path());
   CHECK(contains(refused(moved), "the ground moves under all rows by the excitation \"quake\""));
 }

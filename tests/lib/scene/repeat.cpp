@@ -3,6 +3,7 @@
 
 #include "lib/hbm/scenes.hpp"
 #include "lib/scene/bad_scenes.hpp"
+#include "lib/scene/read_text.hpp"
 
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/scene/json_schema.hpp>
@@ -14,6 +15,7 @@
 #include <sstream>
 
 using namespace arcslip;
+using scene::test::faults_of;
 using std::numbers::pi;
 
 namespace {
@@ -98,15 +100,6 @@ std::string with(std::string text, const std::string& piece, const std::string& 
   const std::size_t at = text.find(piece);
   REQUIRE(at != std::string::npos);
   return text.replace(at, piece.size(), replacement);
-}
-
-std::vector<scene::Fault> faults_of(const std::string& text) {
-  try {
-    scenes::parse(text);
-  } catch (const scene::SceneError& error) {
-    return error.faults();
-  }
-  return {};
 }
 
 }  // namespace

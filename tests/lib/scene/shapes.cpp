@@ -40,7 +40,7 @@ Folder files() {
 }
 
 const std::string by_files = R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx"}, "names": "names.csv")";
-const std::string reduced =
+const std::string by_reduced_files =
     R"("matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "highest_frequency": 300}, "names": "names.csv")";
 std::string by_parts(double speed = 0) {
   std::string text = R"("dofs": ["a", "b", "c", "end"], "masses": [)";
@@ -102,7 +102,7 @@ void check_same(const scene::Scene& one, const scene::Scene& other, double toler
 
 TEST_CASE("a force on all rows from a file is that of forces on each degree of freedom") {
   const Folder folder = files();
-  const std::string structure = GENERATE(by_files, reduced);
+  const std::string structure = GENERATE(by_files, by_reduced_files);
   const std::string each = R"({"name": "fa", "at": "a", "cosine": 2, "sine": 0.5},
     {"name": "fb", "at": "b", "cosine": -4, "sine": -1}, {"name": "fc", "at": "c", "cosine": 1, "sine": 0.25},
     {"name": "fe", "at": "end", "cosine": 0.5, "sine": 0.125})";
@@ -113,7 +113,7 @@ TEST_CASE("a force on all rows from a file is that of forces on each degree of f
 
 TEST_CASE("a travelling force from a file has a real and an imaginary part") {
   const Folder folder = files();
-  const std::string structure = GENERATE(by_files, reduced);
+  const std::string structure = GENERATE(by_files, by_reduced_files);
   // (2 - 0.5 i) (S_r + i S_i): cosine 2 S_r + 0.5 S_i, sine 0.5 S_r - 2 S_i
   const double re[] = {1, -2, 0.5, 0.25}, im[] = {0.3, 0, -0.7, 2};
   const char* names[] = {"a", "b", "c", "end"};
@@ -141,7 +141,7 @@ TEST_CASE("a travelling force from a file has a real and an imaginary part") {
 
 TEST_CASE("a motion of the ground under matrices loads all rows with their masses") {
   const Folder folder = files();
-  const std::string structure = GENERATE(by_files, reduced);
+  const std::string structure = GENERATE(by_files, by_reduced_files);
   const std::string frame = GENERATE("relative", "absolute");
   const std::string type = GENERATE("base_displacement", "base_acceleration");
   const std::string motion = R"({"name": "g", "type": ")" + type + R"(", "cosine": 0.3, "sine": 0.2)";
@@ -151,7 +151,7 @@ TEST_CASE("a motion of the ground under matrices loads all rows with their masse
 
 TEST_CASE("a motion of the ground takes degrees of freedom beside the matrices along") {
   const Folder folder = files();
-  const std::string structure = GENERATE(by_files, reduced) + R"(, "dofs": ["t"])" + tuned;
+  const std::string structure = GENERATE(by_files, by_reduced_files) + R"(, "dofs": ["t"])" + tuned;
   std::string parts = by_parts();
   parts.replace(parts.find("\"end\"]"), 6, "\"end\", \"t\"]");
   parts.replace(parts.find("\"masses\": ["), 11, R"("masses": [{"name": "m_t", "at": "t", "value": 0.2}, )");

@@ -28,8 +28,8 @@ std::vector<int> order_of(int size, const std::vector<int>& kept) {
 }
 
 // (Z, f) condensed onto the first b coordinates, with a loss factor; in long double.
-LongMatrix condensed(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const Eigen::MatrixXd& C,
-                     const Eigen::MatrixXd& f, double s, Eigen::Index b) {
+LongMatrix condensed_with_loads(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const Eigen::MatrixXd& C,
+                                const Eigen::MatrixXd& f, double s, Eigen::Index b) {
   LongMatrix Z = K.cast<Long>() * Long(1, 0.01L) - static_cast<long double>(s) * s * M.cast<Long>();
   if (C.size() > 0) Z += Long(0, s) * C.cast<Long>();
   const Eigen::Index n = M.rows() - b;
@@ -81,8 +81,8 @@ Difference difference(const scene::Matrices& of, const std::vector<int>& kept,
   Difference largest;
   for (int k = 0; k <= 20; ++k) {
     const double s = purpose.highest * k / 20;
-    const LongMatrix whole = condensed(M, K, C, f, s, b),
-                     less = condensed(reduced.M, K_reduced, C_reduced, f_reduced, s, b);
+    const LongMatrix whole = condensed_with_loads(M, K, C, f, s, b),
+                     less = condensed_with_loads(reduced.M, K_reduced, C_reduced, f_reduced, s, b);
     for (Eigen::Index i = 0; i < b; ++i) {
       const auto scale = [&](Eigen::Index j) {
         return std::sqrt(std::abs(K_reduced(j, j)) + s * s * reduced.M(j, j));

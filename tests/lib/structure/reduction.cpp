@@ -46,7 +46,7 @@ Eigen::MatrixXd in_order(const Eigen::MatrixXd& A, const std::vector<int>& kept)
 }
 
 // Masses of 1 kg between springs: the first of them holds the first mass, the others link neighbours.
-scene::Matrices chain(const std::vector<double>& springs) {
+scene::Matrices spring_chain(const std::vector<double>& springs) {
   const auto size = static_cast<int>(springs.size());
   structures::Entries M, K;
   for (int i = 0; i < size; ++i) {
@@ -181,25 +181,25 @@ TEST_CASE("the error of a reduction has what the last digits of the entries chan
   const double eps = std::numeric_limits<double>::epsilon(), sigma = 0.09;
   const auto kept = GENERATE(std::vector{0}, std::vector{1}, std::vector{1, 0});
   for (const double k : {1e3, 1e6, 1e9}) {
-    const structure::Reduced reduced = structure::reduce(chain({1, k}), kept, 1);
+    const structure::Reduced reduced = structure::reduce(spring_chain({1, k}), kept, 1);
     CHECK(reduced.error == Approx(4 * eps * (4 * k + 1 + 2 * sigma)).epsilon(0.01));
     CHECK(reduced.free_below == 0);
   }
-  const std::string found = refusal(chain({1, 1e12}), kept, 1);
+  const std::string found = refusal(spring_chain({1, 1e12}), kept, 1);
   CAPTURE(found);
   CHECK(found.find("the last digits of their entries change the square of the lowest natural frequency by "
                    "0.00355 of it, must be at most 0.001; replace very stiff links by rigid ones") !=
         std::string::npos);
-  CHECK(refusal(chain({1, 1e15}), kept, 1) != "none");
+  CHECK(refusal(spring_chain({1, 1e15}), kept, 1) != "none");
 }
 
 TEST_CASE("a reduction tells up to where natural frequencies of 0 cannot be told from others") {
   const double eps = std::numeric_limits<double>::epsilon(), sigma = 0.09, k = 1e9;
-  const structure::Reduced reduced = structure::reduce(chain({0, k}), {0}, 1);
+  const structure::Reduced reduced = structure::reduce(spring_chain({0, k}), {0}, 1);
   CHECK(reduced.free_below == Approx(std::sqrt(2 * eps * k + 1e-9 * sigma)).epsilon(1e-6));
   CHECK(reduced.error == Approx(8 * eps * k / sigma).epsilon(1e-4));
-  CHECK(refusal(chain({0, 1e12}), {0}, 1) != "none");
-  CHECK(refusal(chain({0, 1e12}), {0}, 1000) == "none");  // far below the frequencies of interest
+  CHECK(refusal(spring_chain({0, 1e12}), {0}, 1) != "none");
+  CHECK(refusal(spring_chain({0, 1e12}), {0}, 1000) == "none");  // far below the frequencies of interest
 }
 
 TEST_CASE("coordinates that the rows kept do not excite are found to add nothing, and are left out") {
@@ -220,18 +220,18 @@ TEST_CASE("coordinates that the rows kept do not excite are found to add nothing
 }
 
 TEST_CASE("a reduction whose error does not fall is refused") {
-  const std::string found = refusal(chain(std::vector<double>(300, 100.0)), {150}, 30, 40);
+  const std::string found = refusal(spring_chain(std::vector<double>(300, 100.0)), {150}, 30, 40);
   CAPTURE(found);
   CHECK(found.find("the matrices cannot be reduced: the error of the dynamic stiffness is ") == 0);
   CHECK(found.find("with 40 coordinates and does not fall any further, must be at most 0.001; lower "
                    "\"highest_frequency\"") != std::string::npos);
-  CHECK(refusal(chain(std::vector<double>(300, 100.0)), {150}, 30) == "none");
+  CHECK(refusal(spring_chain(std::vector<double>(300, 100.0)), {150}, 30) == "none");
 }
 
 TEST_CASE("numbers that overflow or are none are refused") {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const auto with = [](int row, int column, double mass) {
-    scene::Matrices all = chain({100, 100, 100, 100});
+    scene::Matrices all = spring_chain({100, 100, 100, 100});
     structures::Entries M = {{row, column, mass}};
     if (row != column) M.push_back({column, row, mass});
     for (int i = 0; i < 4; ++i) M.push_back({i, i, 1});
@@ -246,7 +246,7 @@ TEST_CASE("numbers that overflow or are none are refused") {
   CHECK(refusal(with(2, 2, none), {0}, 100).find(too_large) != std::string::npos);
   CHECK(refusal(with(2, 2, 1e308), {0}, 100).find(too_large) != std::string::npos);
   CHECK(refusal(with(0, 0, 1), {0}, 1e200).find(too_large) != std::string::npos);
-  CHECK(refusal(chain({-500, 100, 100}), {0}, 1)
+  CHECK(refusal(spring_chain({-500, 100, 100}), {0}, 1)
             .find("is not positive definite, as it is where mass and stiffness are positive semidefinite and "
                   "no part without mass floats; it is not in the rows that the scene uses") !=
         std::string::npos);

@@ -123,7 +123,7 @@ MatrixXd loads_of(int size) {
 }
 
 // (Z, f) condensed onto the first b coordinates.
-MatrixXcd condensed(const structure::WaveStructure& of, double s, double speed, Eigen::Index b) {
+MatrixXcd condensed_in_wave(const structure::WaveStructure& of, double s, double speed, Eigen::Index b) {
   MatrixXcd Z = of.K * Complex(1, 0.01) - s * s * of.M;
   if (of.C.size() > 0) Z += Complex(0, s) * of.C;
   if (of.K2.size() > 0) Z += speed * speed * of.K2;
@@ -218,6 +218,6 @@ TEST_CASE("a sector that is reduced in a wave has the dynamic stiffness and the 
         CHECK(reduced.error < 1e-9);
         for (const double s : {0.0, 0.3, 0.77, 1.2, 1.5})
           for (const double at : {0.0, speed})
-            CHECK(off(condensed(reduced, s, at, b), condensed(whole, s, at, b)) < 1e-9);
+            CHECK(off(condensed_in_wave(reduced, s, at, b), condensed_in_wave(whole, s, at, b)) < 1e-9);
       }
 }

@@ -19,16 +19,16 @@ using Json = nlohmann::json;
 
 namespace {
 
-Json written(const scene::Scene& scene, const std::vector<observables::ResponseBranch>& branches,
-             const scene::RunOptions& options = {}) {
+Json branches_json(const scene::Scene& scene, const std::vector<observables::ResponseBranch>& branches,
+                   const scene::RunOptions& options = {}) {
   std::ostringstream text;
   results::write_json(text, studies::results_of(scene, branches, options));
   return Json::parse(text.str());
 }
 
-std::vector<std::string> rows(const scene::Scene& scene,
-                              const std::vector<observables::ResponseBranch>& branches,
-                              const std::string& table = "points") {
+std::vector<std::string> branch_csv_lines(const scene::Scene& scene,
+                                          const std::vector<observables::ResponseBranch>& branches,
+                                          const std::string& table = "points") {
   std::stringstream text;
   results::write_csv(text, studies::results_of(scene, branches), table);
   std::vector<std::string> all;
@@ -52,7 +52,7 @@ scene::Scene with_element(const std::string& name, const scene::PartType& type) 
 
 TEST_CASE("JSON carries the format, the program, the scene and its hash") {
   const scene::Scene scene = support::scene("A \"title\"\nin two lines");
-  const Json json = written(scene, {});
+  const Json json = branches_json(scene, {});
   CHECK(json["format"] == "arcslip-branches-1");
   CHECK(json["program"] == "arcslip " + std::string(results::version()));
   CHECK(json["scene_hash"] == scene::hash(scene));
@@ -62,7 +62,7 @@ TEST_CASE("JSON carries the format, the program, the scene and its hash") {
 }
 
 TEST_CASE("a branch in JSON has its status, stop, parameters, points, events and solver") {
-  const Json json = written(support::scene(), {support::branch(3), support::branch(5)});
+  const Json json = branches_json(support::scene(), {support::branch(3), support::branch(5)});
   REQUIRE(json["branches"].size() == 2);
   const Json& branch = json["branches"][1];
   CHECK(branch["status"] == "complete");
@@ -108,7 +108,7 @@ TEST_CASE("a branch in JSON has its status, stop, parameters, points, events and
 
 TEST_CASE(
     "each point and event in JSON holds the value of the parameter that its branch is over, by its name") {
-  const Json json = written(support::scene(), {support::peaks(), support::branch()});
+  const Json json = branches_json(support::scene(), {support::peaks(), support::branch()});
   const Json& peaks = json["branches"][0];
   CHECK(peaks["over"] == "damper.normal_load");
   CHECK(peaks["points"][1]["damper.normal_load"] == 1.0);
@@ -122,10 +122,10 @@ TEST_CASE(
 
 TEST_CASE("a branch in JSON tells its study, where it knows it") {
   auto branch = support::branch();
-  CHECK_FALSE(written(support::scene(), {branch})["branches"][0].contains("study"));
+  CHECK_FALSE(branches_json(support::scene(), {branch})["branches"][0].contains("study"));
   branch.study = "a \"study\"";
   branch.kind = "frf";
-  const Json json = written(support::scene(), {branch})["branches"][0];
+  const Json json = branches_json(support::scene(), {branch})["branches"][0];
   CHECK(json["study"] == "a \"study\"");
   CHECK(json["kind"] == "frf");
 }
@@ -133,9 +133,9 @@ TEST_CASE("a branch in JSON tells its study, where it knows it") {
 TEST_CASE("the status of a branch is written by its name") {
   auto branch = support::branch();
   branch.status = observables::Status::stopped;
-  CHECK(written(support::scene(), {branch})["branches"][0]["status"] == "stopped");
+  CHECK(branches_json(support::scene(), {branch})["branches"][0]["status"] == "stopped");
   branch.status = observables::Status::failed;
-  CHECK(written(support::scene(), {branch})["branches"][0]["status"] == "failed");
+  CHECK(branches_json(support::scene(), {branch})["branches"][0]["status"] == "failed");
 }
 
 TEST_CASE("numbers in JSON read back exactly") {
@@ -145,13 +145,13 @@ TEST_CASE("numbers in JSON read back exactly") {
     branch.points.resize(numbers.size(), support::point(1, 1));
     branch.points[i].amplitude = numbers[i];
   }
-  const Json json = written(support::scene(), {branch});
+  const Json json = branches_json(support::scene(), {branch});
   for (std::size_t i = 0; i < numbers.size(); ++i)
     CHECK(json["branches"][0]["points"][i]["amplitude"].get<double>() == numbers[i]);
 }
 
 TEST_CASE("coefficients come with their harmonics when they are asked for") {
-  const Json json = written(support::scene(), {support::branch()}, {.coefficients = true});
+  const Json json = branches_json(support::scene(), {support::branch()}, {.coefficients = true});
   CHECK(json["branches"][0]["harmonics"] == Json{1, 3});
   CHECK(json["branches"][0]["points"][1]["coefficients"] == Json{0.05, 0.0, 0.0, -0.05});
 }
@@ -162,7 +162,7 @@ TEST_CASE("maxima over the period are written where there are any") {
   event.maxima = {1.5, 20, {}};
   event.maxima.force_per_displacement = {3, 4};
   event.elements[0].maxima = {1, 0.5, 0.75};
-  const Json json = written(support::scene(), {branch})["branches"][0]["events"][0];
+  const Json json = branches_json(support::scene(), {branch})["branches"][0]["events"][0];
   CHECK(json["maxima"] ==
         Json{{"velocity", 1.5}, {"acceleration", 20.0}, {"in_phase", 3.0}, {"out_of_phase", 4.0}});
   CHECK(json["elements"]["damper"]["maxima"] == Json{{"force", 1.0}, {"cosine", 0.5}, {"sine", 0.75}});
@@ -173,7 +173,7 @@ TEST_CASE("with a nonlinear spring its part of the forces is written, and no ang
   branch.points[0].elements.push_back({"spring", false, 0, {}, {}, 0, {}});
   branch.points[0].forces.nonlinear_spring = {7, 0};
   const Json json =
-      written(with_element("spring", elements::cubic_spring()), {branch})["branches"][0]["points"][0];
+      branches_json(with_element("spring", elements::cubic_spring()), {branch})["branches"][0]["points"][0];
   CHECK(json["force_per_displacement"]["in_phase"]["nonlinear_spring"] == 7.0);
   CHECK(json["elements"]["spring"]["equivalent_stiffness"].is_null());
   CHECK_FALSE(json["elements"]["spring"].contains("theta_0"));
@@ -182,7 +182,7 @@ TEST_CASE("with a nonlinear spring its part of the forces is written, and no ang
 TEST_CASE("an unbounded amplitude is null and said to be unbounded") {
   auto branch = support::branch();
   branch.events[0].point.unbounded = true;
-  const Json event = written(support::scene(), {branch})["branches"][0]["events"][0];
+  const Json event = branches_json(support::scene(), {branch})["branches"][0]["events"][0];
   CHECK(event["amplitude"].is_null());
   CHECK(event["phase"].is_null());
   CHECK(event["unbounded"] == true);
@@ -195,7 +195,7 @@ TEST_CASE("what is not finite never reaches JSON") {
   branch.points[0].amplitude = std::nan("");
   branch.points[0].elements[0].slip_angles = {-std::numeric_limits<double>::infinity()};
   branch.stop.limit = std::numeric_limits<double>::infinity();
-  const Json json = written(support::scene(), {branch}, {.coefficients = true});
+  const Json json = branches_json(support::scene(), {branch}, {.coefficients = true});
   CHECK(json["branches"][0]["points"][0]["amplitude"].is_null());
   CHECK(json["branches"][0]["points"][0]["elements"]["damper"]["slip_angles"][0].is_null());
   CHECK(json["branches"][0]["stop"]["limit"].is_null());
@@ -206,13 +206,14 @@ TEST_CASE("stick_percent stands at the top of a point only with exactly one fric
   branch.points[0].elements.push_back({"spring", false, 0, {}, {}, 0, {}});
   branch.points[2].elements.clear();
   const Json points =
-      written(with_element("spring", elements::cubic_spring()), {branch})["branches"][0]["points"];
+      branches_json(with_element("spring", elements::cubic_spring()), {branch})["branches"][0]["points"];
   CHECK(points[0].contains("stick_percent"));
   CHECK_FALSE(points[0]["elements"]["spring"].contains("stick_percent"));
   CHECK_FALSE(points[2].contains("stick_percent"));
   CHECK(points[2]["elements"] == Json::object());
   branch.points[1].elements.push_back({"second", true, 10, {}, {}, 0, {}});
-  const Json two = written(with_element("second", elements::jenkins()), {branch})["branches"][0]["points"][1];
+  const Json two =
+      branches_json(with_element("second", elements::jenkins()), {branch})["branches"][0]["points"][1];
   CHECK_FALSE(two.contains("stick_percent"));
   CHECK(two["elements"]["second"]["stick_percent"] == 10.0);
 }
@@ -220,12 +221,12 @@ TEST_CASE("stick_percent stands at the top of a point only with exactly one fric
 TEST_CASE("an event says after which point of its branch it comes") {
   auto branch = support::branch();
   branch.events[0].after = 2;
-  CHECK(written(support::scene(), {branch})["branches"][0]["events"][0]["after"] == 2);
+  CHECK(branches_json(support::scene(), {branch})["branches"][0]["events"][0]["after"] == 2);
 }
 
 TEST_CASE(
     "a branch as CSV has a row for each point with its quantities and their units, and one for each event") {
-  const auto points = rows(support::scene(), {support::branch(3), support::branch(0.5)});
+  const auto points = branch_csv_lines(support::scene(), {support::branch(3), support::branch(0.5)});
   REQUIRE(points.size() == 1 + 2 * 5);
   CHECK(points[0].starts_with(
       "study,damper.normal_load (N),branch,omega (rad/s),frequency (Hz),amplitude (m),unbounded,"
@@ -236,18 +237,18 @@ TEST_CASE(
   CHECK(points[1].starts_with(",3,1,6.283185307179586,1,0.01,,0.5,1e-09,false,0.25,0.125,0.375,"));
   CHECK(points[1].ends_with(",1,0.6,10,0.75"));
   CHECK(points[6].starts_with(",0.5,2,6.283185307179586,"));
-  const auto events = rows(support::scene(), {support::branch(3)}, "events");
+  const auto events = branch_csv_lines(support::scene(), {support::branch(3)}, "events");
   REQUIRE(events.size() == 2);
   CHECK(events[0].starts_with(
       "study,damper.normal_load (N),branch,kind,nonsmooth,located,after,omega (rad/s),"));
   CHECK(events[1].starts_with(",3,1,peak,false,true,0,"));
-  CHECK(rows(support::scene(), {}).size() == 1);
+  CHECK(branch_csv_lines(support::scene(), {}).size() == 1);
 }
 
 TEST_CASE("the parameter that a branch is over is the first column of its table, with its unit") {
   auto branch = support::peaks();
   branch.set = {{"c.value", 0.5}};
-  const auto points = rows(support::scene(), {branch});
+  const auto points = branch_csv_lines(support::scene(), {branch});
   CHECK(points.at(0).starts_with("study,c.value (N s/m),branch,damper.normal_load (N),omega (rad/s),"));
   CHECK(points.at(2).starts_with(",0.5,1,1,"));
 }
@@ -255,7 +256,7 @@ TEST_CASE("the parameter that a branch is over is the first column of its table,
 TEST_CASE("a response over the frequency and one over a parameter share that parameter's column") {
   auto second = support::peaks();
   second.study = "the peaks";
-  const auto points = rows(support::scene(), {support::branch(3), second});
+  const auto points = branch_csv_lines(support::scene(), {support::branch(3), second});
   CHECK(points.at(0).find("damper.normal_load (N)") == points.at(0).rfind("damper.normal_load (N)"));
   CHECK(points.at(0).ends_with(",damper.normal_load (N)"));
   CHECK(points.at(1).ends_with(",3"));
@@ -267,7 +268,7 @@ TEST_CASE("an unbounded peak in CSV has its frequency, and says so") {
   auto branch = support::branch();
   branch.events[0].point.unbounded = true;
   branch.events[0].point.elements.clear();
-  const std::string row = rows(support::scene(), {branch}, "events").at(1);
+  const std::string row = branch_csv_lines(support::scene(), {branch}, "events").at(1);
   CHECK(row.starts_with(",3,1,peak,false,true,0,9."));
   CHECK(row.find(",1.5,,true,,,") != std::string::npos);
 }
@@ -277,5 +278,5 @@ TEST_CASE("names with commas and quotes are quoted in CSV") {
   scene.elements[0].name = "a \"b\", c";
   auto branch = support::branch();
   branch.set = {{"a \"b\", c.normal_load", 3}};
-  CHECK(rows(scene, {branch})[0].starts_with("study,\"a \"\"b\"\", c.normal_load (N)\",branch,"));
+  CHECK(branch_csv_lines(scene, {branch})[0].starts_with("study,\"a \"\"b\"\", c.normal_load (N)\",branch,"));
 }

@@ -29,7 +29,7 @@ scene::Scene made_up_scene() {
 }
 
 /// Three instants of a slider.
-Motion motion(double normal_load = 3) {
+Motion made_up_motion(double normal_load = 3) {
   Motion motion;
   motion.stop = {observables::reasons::periodic, 1e-12, 1e-9, "relative correction 1e-12"};
   motion.set = {{"damper.normal_load", normal_load}};
@@ -52,13 +52,13 @@ Motion motion(double normal_load = 3) {
   return motion;
 }
 
-Json written(const std::vector<Motion>& motions) {
+Json motions_json(const std::vector<Motion>& motions) {
   std::ostringstream text;
   results::write_json(text, studies::results_of(made_up_scene(), motions));
   return Json::parse(text.str());
 }
 
-std::vector<std::string> rows(const std::vector<Motion>& motions) {
+std::vector<std::string> history_csv_lines(const std::vector<Motion>& motions) {
   std::ostringstream text;
   results::write_csv(text, studies::results_of(made_up_scene(), motions), "history");
   std::istringstream in(text.str());
@@ -74,11 +74,11 @@ std::vector<std::string> rows(const std::vector<Motion>& motions) {
 
 TEST_CASE("a motion in JSON has its status, numbers, multipliers, elements and history") {
   const scene::Scene scene = made_up_scene();
-  Motion named = motion();
+  Motion named = made_up_motion();
   named.study = "loops";
   named.kind = "time";
   named.method = observables::TimeMethod::newmark_shooting;
-  const Json json = written({motion(5), named});
+  const Json json = motions_json({made_up_motion(5), named});
   CHECK(json["format"] == "arcslip-time-1");
   CHECK(json["scene_hash"] == scene::hash(scene));
   REQUIRE(json["motions"].size() == 2);
@@ -118,7 +118,7 @@ TEST_CASE("a motion without multipliers is neither stable nor unstable, and what
   failed.amplitude = std::nan("");
   failed.history.time = {0};
   failed.history.displacement = {std::numeric_limits<double>::infinity()};
-  const Json m = written({failed})["motions"][0];
+  const Json m = motions_json({failed})["motions"][0];
   CHECK(m["status"] == "failed");
   CHECK(m["multipliers"] == Json::array());
   CHECK_FALSE(m.contains("stable"));
@@ -130,7 +130,7 @@ TEST_CASE("a motion without multipliers is neither stable nor unstable, and what
 }
 
 TEST_CASE("CSV of motions has a row an instant, with units") {
-  const auto all = rows({motion(3), motion(0.5)});
+  const auto all = history_csv_lines({made_up_motion(3), made_up_motion(0.5)});
   REQUIRE(all.size() == 7);
   CHECK(
       all[0] ==
@@ -138,14 +138,14 @@ TEST_CASE("CSV of motions has a row an instant, with units") {
       "damper.force (N),damper.slider (m),spring.displacement (m),spring.force (N)");
   CHECK(all[1] == ",3,1,0,0.2,0,0.2,1.5,0.05,1,4");
   CHECK(all[5] == ",0.5,2,0.25,-0.2,0.3333333333333333,-0.2,-1.5,-0.05,2,5");
-  Motion other = motion();
+  Motion other = made_up_motion();
   other.study = "b";
-  CHECK(rows({motion(), other})[4].find("b,3,2,0,") == 0);
+  CHECK(history_csv_lines({made_up_motion(), other})[4].find("b,3,2,0,") == 0);
 }
 
 TEST_CASE("figures of motions are the displacement, and the loop and the force of each friction element") {
   const scene::Scene scene = made_up_scene();
-  const std::vector<Motion> motions{motion(1), motion(2)};
+  const std::vector<Motion> motions{made_up_motion(1), made_up_motion(2)};
   const auto data = studies::figures_of(scene, motions);
   REQUIRE(data.lines.size() == 2);
   CHECK(data.lines[1].label == "2 N");
@@ -162,7 +162,7 @@ TEST_CASE("figures of motions are the displacement, and the loop and the force o
   CHECK(figures[2].x == 0);
   CHECK(figures[2].y == 3);
 
-  Motion two = motion();
+  Motion two = made_up_motion();
   two.history.elements.push_back(two.history.elements.front());
   two.history.elements.back().name = "b/c";
   scene::Scene of_two = scene;
@@ -174,7 +174,7 @@ TEST_CASE("figures of motions are the displacement, and the loop and the force o
 }
 
 TEST_CASE("histories of more than 20 000 instants are thinned in figures, and keep their end") {
-  Motion longer = motion();
+  Motion longer = made_up_motion();
   longer.history = {};
   for (int i = 0; i <= 100'000; ++i) {
     longer.history.time.push_back(i);
@@ -194,8 +194,8 @@ TEST_CASE("the figures of motions are drawn") {
     return;
   }
   const support::TemporaryFolder folder;
-  const auto figures = output::draw_figures(studies::figures_of(made_up_scene(), std::vector{motion()}),
-                                            folder.path(), "time");
+  const auto figures = output::draw_figures(
+      studies::figures_of(made_up_scene(), std::vector{made_up_motion()}), folder.path(), "time");
   CHECK(figures.problem.empty());
   CHECK(figures.images.size() == 6);
   CHECK(support::content(folder / "time.dat").find("# time (s), displacement (m), damper displacement (m)") ==

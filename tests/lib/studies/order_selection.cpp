@@ -30,7 +30,7 @@ using Json = nlohmann::json;
 namespace {
 
 /// The results of all studies.
-Json run(const scene::Scene& s, const results::ProgressCallback& progress = {}) {
+Json results_json(const scene::Scene& s, const results::ProgressCallback& progress = {}) {
   std::ostringstream text;
   results::write_json(text, studies::run(s, {.progress = progress}));
   return Json::parse(text.str());
@@ -160,7 +160,7 @@ TEST_CASE("peaks of the paper's oscillator are as accurate as was asked for, bes
     int before = 0;
     for (const double accuracy : {1e-2, 1e-4, 1e-6}) {
       CAPTURE(load, accuracy);
-      const Json all = run(accurate(
+      const Json all = results_json(accurate(
           with_study(scenes::paper(7, load), studies::frf(), observables::FrequencyRange{17, 28}), accuracy));
       const Json& branch = all["branches"][0];
       const Json& told = branch["accuracy"];
@@ -177,7 +177,7 @@ TEST_CASE("peaks of the paper's oscillator are as accurate as was asked for, bes
       CHECK(highest["order"] <= told["order"]);
       const scene::Scene given = with_study(scenes::paper(highest["order"], load), studies::frf(),
                                             observables::FrequencyRange{17, 28});
-      const Json there = peak(run(given)["branches"][0]);
+      const Json there = peak(results_json(given)["branches"][0]);
       for (const char* of : {"amplitude", "frequency", "energy_friction"})
         CHECK(reference::error(highest[of], there[of]) < 1e-9);
     }
@@ -189,14 +189,14 @@ TEST_CASE("a curve is as accurate as was asked for, beside exact motions in time
   const observables::FrequencyRange range{18, 24};
   const double accuracy = 1e-5;
   scene::Scene s = accurate(with_study(scenes::paper(7, 3), studies::frf(), range), accuracy);
-  const Json branch = run(s)["branches"][0];
+  const Json branch = results_json(s)["branches"][0];
   const double most = peak(branch)["amplitude"];
   int compared = 0;
   for (std::size_t i = 0; i < branch["points"].size(); i += 12) {
     const Json& point = branch["points"][i];
     const double frequency = point["frequency"];
     CAPTURE(frequency);
-    const Json motion = run(
+    const Json motion = results_json(
         with_study(scenes::paper(7, 3), studies::time(), observables::TimeSettings{frequency}))["motions"][0];
     CHECK(std::abs(point["amplitude"].get<double>() - motion["amplitude"].get<double>()) <= accuracy * most);
     ++compared;
@@ -213,18 +213,18 @@ TEST_CASE("a linear structure takes the lowest order, and a smooth spring few mo
     "harmonics": {"accuracy": 1e-8}})";
   scene::Scene s = with_study(scenes::parse(duffing), studies::frf(), observables::FrequencyRange{0.7, 2.5});
   CHECK(s.harmonics.order == scene::largest_chosen_order);
-  const Json smooth = run(s)["branches"][0];
+  const Json smooth = results_json(s)["branches"][0];
   CHECK(smooth["accuracy"]["error"] <= 1e-8);
   CHECK(smooth["accuracy"]["order"] <= 31);
   s.harmonics.accuracy = 0;
   s.harmonics.order = 61;
   CHECK(std::abs(peak(smooth)["amplitude"].get<double>() /
-                     peak(run(s)["branches"][0])["amplitude"].get<double>() -
+                     peak(results_json(s)["branches"][0])["amplitude"].get<double>() -
                  1) <= 1e-8);
 
   s = accurate(s, 1e-8);
   s.elements.clear();
-  const Json linear = run(s)["branches"][0];
+  const Json linear = results_json(s)["branches"][0];
   CHECK(linear["accuracy"]["orders"] == Json{3});
   CHECK(linear["accuracy"]["error"] < 1e-14);
 }
@@ -233,16 +233,16 @@ TEST_CASE("sampled friction has samples for the accuracy") {
   scene::Scene s =
       accurate(with_study(scenes::paper(7, 3), studies::frf(), observables::FrequencyRange{18, 24}), 1e-4);
   s.harmonics.friction = scene::Friction::sampled;
-  const Json sampled = run(s)["branches"][0];
+  const Json sampled = results_json(s)["branches"][0];
   CHECK(sampled["accuracy"]["error"] <= 1e-4);
   scene::Scene exact = with_study(scenes::paper(101, 3), studies::frf(), observables::FrequencyRange{18, 24});
   CHECK(std::abs(peak(sampled)["amplitude"].get<double>() /
-                     peak(run(exact)["branches"][0])["amplitude"].get<double>() -
+                     peak(results_json(exact)["branches"][0])["amplitude"].get<double>() -
                  1) <= 1e-4);
 }
 
 TEST_CASE("an accuracy that is not reached is told") {
-  const Json all = run(accurate(
+  const Json all = results_json(accurate(
       with_study(scenes::paper(7, 3), studies::frf(), observables::FrequencyRange{17, 28}), 1e-9, 15));
   const Json& branch = all["branches"][0];
   CHECK(branch["status"] == "complete");
@@ -255,7 +255,7 @@ TEST_CASE("an accuracy that is not reached is told") {
 
 TEST_CASE("a study that the user ends has the order that it had") {
   long calls = 0;
-  const Json all = run(
+  const Json all = results_json(
       accurate(with_study(scenes::paper(7, 3), studies::frf(), observables::FrequencyRange{17, 28}), 1e-6),
       [&](const results::Progress& now) {
         CHECK(now.order == 3);
@@ -273,7 +273,7 @@ TEST_CASE("a study that the user ends in a higher order has the whole results of
   for (const int after : {0, 10, 60}) {  // calls of the second order
     CAPTURE(after);
     int calls = 0;
-    const Json branch = run(
+    const Json branch = results_json(
         s, [&](const results::Progress& now) { return now.order == 3 || ++calls <= after; })["branches"][0];
     CHECK(calls == after + 1);
     CHECK(branch["status"] == "complete");
@@ -289,7 +289,7 @@ TEST_CASE("a study that the user ends in a higher order has the whole results of
       CHECK(point["order"] == 3);
       point.erase("order");
     }
-    CHECK(run(given)["branches"][0]["points"] == points);
+    CHECK(results_json(given)["branches"][0]["points"] == points);
   }
 }
 
@@ -298,26 +298,27 @@ TEST_CASE("a failing study is tried with two orders") {
       accurate(with_study(scenes::paper(7, 3), studies::frf(), observables::FrequencyRange{17, 28}), 1e-6);
   scene::set(s, "damper.normal_load", 1e6);  // stuck
   scene::set(s, "c.value", 0);
-  const Json all = run(s);
+  const Json all = results_json(s);
   CAPTURE(all.dump());
   CHECK(all["branches"][0]["accuracy"]["orders"].size() <= 2);
 }
 
 TEST_CASE("every kind of study by harmonic balance takes an accuracy, and others have no order to choose") {
   const scene::Scene paper = accurate(scenes::paper(7, 3), 1e-4);
-  const Json trace = run(with_study(
+  const Json trace = results_json(with_study(
       paper, studies::trace(), observables::ParameterRange{"damper.normal_load", 1, 20, 20}))["branches"][0];
   CHECK(trace["accuracy"]["error"] <= 1e-4);
-  const Json peaks = run(with_study(
+  const Json peaks = results_json(with_study(
       paper, studies::peaks(), observables::CurveRange{"damper.normal_load", 1, 20, 17, 28}))["branches"][0];
   CHECK(peaks["accuracy"]["error"] <= 1e-4);
-  const Json point =
-      run(with_study(paper, studies::point(), observables::PointSettings{.frequency = 20}))["responses"][0];
+  const Json point = results_json(
+      with_study(paper, studies::point(), observables::PointSettings{.frequency = 20}))["responses"][0];
   CHECK(point["accuracy"]["error"] <= 1e-4);
-  const Json motion = run(with_study(paper, studies::time(), observables::TimeSettings{20}))["motions"][0];
+  const Json motion =
+      results_json(with_study(paper, studies::time(), observables::TimeSettings{20}))["motions"][0];
   CHECK(!motion.contains("accuracy"));
   CHECK(std::abs(point["amplitude"].get<double>() / motion["amplitude"].get<double>() - 1) <= 1e-4);
-  const Json shooting = run(
+  const Json shooting = results_json(
       with_study(paper, studies::frf(),
                  observables::FrequencyRange{
                      .from = 19, .to = 21, .method = observables::ResponseMethod::shooting}))["branches"][0];
@@ -338,14 +339,14 @@ TEST_CASE("optima and curves of optima take an accuracy") {
       const Json& result = all[list][0];
       return (along ? result["points"].back()["amplitude"] : result["optimum"]["amplitude"]).get<double>();
     };
-    const Json all = run(accurate(s, 1e-6));
+    const Json all = results_json(accurate(s, 1e-6));
     const Json& told = all[list][0]["accuracy"];
     CAPTURE(told.dump());
     CHECK(told["error"] <= 1e-6);
     CHECK(told["order"] > 3);
     scene::Scene finer = s;
     finer.harmonics.order = 99;
-    CHECK(std::abs(amplitude(all) / amplitude(run(finer)) - 1) <= 1e-6);
+    CHECK(std::abs(amplitude(all) / amplitude(results_json(finer)) - 1) <= 1e-6);
   }
 }
 
@@ -359,7 +360,7 @@ TEST_CASE("an accuracy holds at a cusp, at whose load more harmonics have no fol
         if (event["kind"] == "cusp") return event;
     return Json();
   };
-  const Json all = run(s), found = cusp(all), told = all["branches"][0]["accuracy"];
+  const Json all = results_json(s), found = cusp(all), told = all["branches"][0]["accuracy"];
   REQUIRE(found.is_object());
   CHECK(found["truncation_estimate"].is_number());
   CHECK(found["truncation_flagged"] == false);
@@ -368,7 +369,7 @@ TEST_CASE("an accuracy holds at a cusp, at whose load more harmonics have no fol
   scene::Scene finer = s;
   finer.harmonics.accuracy = 0;
   finer.harmonics.order = 45;
-  const Json exact = cusp(run(finer));
+  const Json exact = cusp(results_json(finer));
   REQUIRE(exact.is_object());
   for (const char* of : {"amplitude", "frequency", "d.normal_load"}) {
     CAPTURE(of);
@@ -379,14 +380,14 @@ TEST_CASE("an accuracy holds at a cusp, at whose load more harmonics have no fol
 TEST_CASE("modes have no estimates: two orders agree") {
   const scene::Scene s = accurate(
       with_study(scenes::paper(7, 3), studies::modes(), observables::ModeRange{1, 1e-4, 1e-2}), 1e-5);
-  const Json mode = run(s)["branches"][0];
+  const Json mode = results_json(s)["branches"][0];
   CAPTURE(mode["stop"].dump());
   CHECK(mode["accuracy"]["orders"].size() >= 2);
   CHECK(mode["accuracy"]["error"] <= 1e-5);
   scene::Scene finer = s;
   finer.harmonics.accuracy = 0;
   finer.harmonics.order = 151;
-  const Json exact = run(finer)["branches"][0];
+  const Json exact = results_json(finer)["branches"][0];
   const Json &a = mode["points"].back(), &b = exact["points"].back();
   CHECK(std::abs(a["frequency"].get<double>() / b["frequency"].get<double>() - 1) <= 1e-5);
   CHECK(std::abs(a["damping_ratio"].get<double>() / b["damping_ratio"].get<double>() - 1) <= 1e-5);

@@ -36,7 +36,7 @@ scene::Study frf(const char* name, scene::ValueLists lists) {
   return {name, &studies::frf(), scene::Settings::of(observables::FrequencyRange{19, 21}), std::move(lists)};
 }
 
-scene::Study motion(const char* name) {
+scene::Study time_study(const char* name) {
   return {name, &studies::time(), scene::Settings::of(observables::TimeSettings{20}), {}};
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("a sink has each result as soon as it is computed") {
 
 TEST_CASE("results of one list of a document come one after the other") {
   scene::Scene s = scenes::paper(1);
-  s.studies = {frf("a", {}), motion("b"), frf("c", {})};
+  s.studies = {frf("a", {}), time_study("b"), frf("c", {})};
   Recorder recorder;
   studies::run(s, {.points = false}, recorder);
   CHECK(recorder.of_schema == std::vector<std::size_t>{0, 2, 1});
@@ -132,7 +132,7 @@ TEST_CASE("branches have numbers, and those that they go on from") {
 
 TEST_CASE("without points a study has events and facts, and no rows of points") {
   scene::Scene s = scenes::paper(1);
-  s.studies = {frf("a", {}), motion("b")};
+  s.studies = {frf("a", {}), time_study("b")};
   const results::Results all = studies::run(s, {.points = false});
   CHECK(all.results.at(0).tables.at(0).count == 0);
   CHECK(all.results[0].tables.at(1).count == 1);
@@ -202,7 +202,7 @@ TEST_CASE("axes of figures have the labels of the scene, and the names of quanti
   CHECK(peaks.figures[0].x_label == "normal load F_n (N)");
   CHECK(peaks.figures[0].y_label == "tip (m)");
   CHECK(peaks.figures[1].y_label == "excitation frequency (Hz)");
-  CHECK(figures(motion("t")).figures[0].y_label == "tip of the blade (m)");
+  CHECK(figures(time_study("t")).figures[0].y_label == "tip of the blade (m)");
   // What would take the room of the figure is numbered.
   const results::FigureData numbered = figures(
       frf("a", {{"damper.normal_load", {1, 3}}, {"c.value", {0.123456789}}, {"k.value", {17890.12345}}}));

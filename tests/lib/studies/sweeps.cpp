@@ -1,5 +1,6 @@
 // Sweeps as results: columns, documentation, figures.
 #include "catch.hpp"
+#include "environment.hpp"
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/results/csv_writer.hpp>
@@ -45,7 +46,7 @@ TEST_CASE("sweeps in JSON and CSV have their points and jumps, and the documenta
   const scene::Scene s = swept();
   const results::Results all = studies::run(s);
   REQUIRE(all.schemas.size() == 1);
-  std::ifstream file(ARCSLIP_SOURCE_DIR "/docs/results.md");
+  std::ifstream file(source_folder() + "/docs/results.md");
   std::stringstream documented;
   documented << file.rdbuf();
   for (const results::Table& table : all.schemas[0].tables) {

@@ -30,7 +30,8 @@ void take_time(std::size_t k) {
   std::this_thread::sleep_for(std::chrono::microseconds(k % 3 == 0 ? 2000 : 100 * (k % 5)));
 }
 
-Json run(const scene::Scene& s, int threads, const results::ProgressCallback& progress = {}) {
+Json results_json_in_threads(const scene::Scene& s, int threads,
+                             const results::ProgressCallback& progress = {}) {
   std::ostringstream text;
   results::write_json(text, studies::run(s, {.progress = progress, .threads = threads}));
   return Json::parse(text.str());
@@ -155,11 +156,11 @@ TEST_CASE("studies of every kind have the same results in one thread and in seve
   for (const double accuracy : {0.0, 1e-3}) {
     s.harmonics.accuracy = accuracy;
     if (accuracy > 0) s.harmonics.order = 55;
-    Json one = run(s, 1);
+    Json one = results_json_in_threads(s, 1);
     remove_seconds(one);
     for (const int threads : {2, 8}) {
       CAPTURE(accuracy, threads);
-      Json several = run(s, threads);
+      Json several = results_json_in_threads(s, threads);
       remove_seconds(several);
       CHECK(several == one);
     }
@@ -174,7 +175,7 @@ TEST_CASE(
   long calls = 0;
   int last = 0;
   bool alone = true, forward = true;
-  const Json all = run(s, 4, [&](const results::Progress& now) {
+  const Json all = results_json_in_threads(s, 4, [&](const results::Progress& now) {
     alone = alone && ++inside == 1;
     forward = forward && now.branch >= last && now.branches == 8;
     last = now.branch;
@@ -188,7 +189,7 @@ TEST_CASE(
   CHECK(all["branches"].size() == 8);
 
   calls = 0;
-  const Json stopped = run(s, 4, [&](const results::Progress&) { return ++calls < 100; });
+  const Json stopped = results_json_in_threads(s, 4, [&](const results::Progress&) { return ++calls < 100; });
   CHECK(stopped["branches"].size() <= 5);
   CHECK(stopped["branches"].back()["stop"]["reason"] == observables::reasons::user.code);
   CHECK(calls <= 100 + 3);

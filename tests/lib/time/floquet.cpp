@@ -26,11 +26,11 @@ using namespace arcslip;
 using multiplier_distance::distance, multiplier_distance::difference;
 using namespace arcslip::time;
 using random_scenes::Excitation;
+using std::numbers::pi;
 
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
 
 std::uint64_t scene_count() {
   if (const char* count = std::getenv("ARCSLIP_SCENES")) return std::strtoull(count, nullptr, 10);

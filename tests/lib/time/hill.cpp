@@ -6,12 +6,12 @@
 #include "lib/time/along_harmonics.hpp"
 #include "lib/time/beside_exact.hpp"
 #include "lib/time/cosine.hpp"
+#include "lib/time/multiplier_distance.hpp"
 #include "lib/time/systems.hpp"
 
 #include <arcslip/elements/gap_spring.hpp>
 #include <arcslip/elements/polynomial_spring.hpp>
 #include <arcslip/elements/van_der_pol.hpp>
-#include <arcslip/observables/stability.hpp>
 #include <arcslip/time/hill.hpp>
 
 #include <Eigen/LU>
@@ -21,20 +21,16 @@
 
 using namespace arcslip;
 using namespace arcslip::time;
+using multiplier_distance::difference;
+using std::numbers::pi;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
-
-double difference(const std::vector<std::complex<double>>& a, const std::vector<std::complex<double>>& b) {
-  return std::max(observables::distance(a, b), observables::distance(b, a));
-}
 
 struct Both {
   std::vector<std::complex<double>> in_time, by_hill, half_in_time, half_by_hill;
 };
 
-Both multipliers(const scene::Scene& s, double frequency) {
+Both multipliers_both_ways(const scene::Scene& s, double frequency) {
   const auto pair = beside_exact::balanced(s, frequency);
   const auto courses = along_harmonics::courses(pair);
   Floquet floquet(pair.equation);
@@ -103,12 +99,12 @@ TEST_CASE(
 TEST_CASE("Hill's method agrees with the multipliers in time along smooth motions", "[numbers]") {
   for (const double frequency : {0.3, 0.9, 1.3, 2.4}) {
     CAPTURE(frequency);
-    const auto both = multipliers(two_cubic_masses(9), frequency);
+    const auto both = multipliers_both_ways(two_cubic_masses(9), frequency);
     REQUIRE(both.by_hill.size() == 4);
     REQUIRE(both.half_by_hill.size() == 4);
     CHECK(difference(both.in_time, both.by_hill) < 1e-9);
     CHECK(difference(both.half_in_time, both.half_by_hill) < 1e-9);
-    const auto all = multipliers(
+    const auto all = multipliers_both_ways(
         two_cubic_masses(9, R"(, {"name": "second", "at": "x2", "harmonic": 2, "sine": 0.2})"), frequency);
     CHECK(all.half_by_hill.empty());
     CHECK(difference(all.in_time, all.by_hill) < 1e-9);

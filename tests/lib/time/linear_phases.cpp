@@ -5,6 +5,7 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/time/along_harmonics.hpp"
 #include "lib/time/beside_exact.hpp"
+#include "lib/time/multiplier_distance.hpp"
 #include "lib/time/systems.hpp"
 
 #include <arcslip/elements/gap_spring.hpp>
@@ -20,15 +21,12 @@
 
 using namespace arcslip;
 using namespace arcslip::time;
+using multiplier_distance::difference;
 
 namespace {
 
 using Complex = std::complex<double>;
 constexpr double turn = 2 * std::numbers::pi;
-
-double difference(const std::vector<Complex>& a, const std::vector<Complex>& b) {
-  return std::max(observables::distance(a, b), observables::distance(b, a));
-}
 
 // The sum of exp(lambda T) over the eigenvalues of a structure without elements: as accurate next to a double
 // one as elsewhere.

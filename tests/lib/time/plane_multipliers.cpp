@@ -24,11 +24,11 @@
 using namespace arcslip;
 using multiplier_distance::distance, multiplier_distance::difference;
 using namespace arcslip::time;
+using std::numbers::pi;
 
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
 
 // The same mass in x and y and one along the normal, without couplings, and the contact.
 EquationOfMotion pad(const elements::PlainLaw& law, std::vector<double> fields, const Matrix& directions,
@@ -42,8 +42,8 @@ EquationOfMotion pad(const elements::PlainLaw& law, std::vector<double> fields, 
   return equation;
 }
 
-std::vector<Complex> multipliers(const EquationOfMotion& equation, const elements::Harmonics& harmonics,
-                                 const Matrix& q) {
+std::vector<Complex> floquet_multipliers(const EquationOfMotion& equation,
+                                         const elements::Harmonics& harmonics, const Matrix& q) {
   Floquet floquet(equation);
   REQUIRE(floquet.compute(equation.omega, harmonics, {{q, {}}}));
   return floquet.multipliers();
@@ -64,7 +64,7 @@ TEST_CASE("slip along a circle has constant coefficients in a frame that turns w
     const elements::Harmonics harmonics{1};
     Matrix q = Matrix::Zero(harmonics.size(), 3);
     q(harmonics.cosine_index(1), 0) = q(harmonics.sine_index(1), 1) = a;
-    const auto found = multipliers(equation, harmonics, q);
+    const auto found = floquet_multipliers(equation, harmonics, q);
 
     // x' = a (0, 1) and n = (cos phi, sin phi) there, h psi' = a cos phi with psi' = 1; (xi, xi', y).
     const double cosine = h / a, sine = std::sqrt((1 - cosine) * (1 + cosine)), g = a * sine / h;
@@ -105,13 +105,13 @@ TEST_CASE("along a line of the plane a contact has the multipliers of the contac
     q(harmonics.cosine_index(1), 1) = -0.2;
     q(harmonics.sine_index(1), 1) = 0.35;
     q(harmonics.cosine_index(2), 1) = 0.07;
-    const auto line = multipliers(
+    const auto line = floquet_multipliers(
         pad(elements::contact_2d(), {k_t, k_n, mu, load}, Matrix::Identity(2, 2), omega), harmonics, q);
     Matrix in_plane(q.rows(), 3);
     in_plane << q.col(0) * e.transpose(), q.col(1);
     const auto plane =
-        multipliers(pad(elements::contact_3d(), {k_t, k_n, mu, load}, Matrix::Identity(3, 3), omega),
-                    harmonics, in_plane);
+        floquet_multipliers(pad(elements::contact_3d(), {k_t, k_n, mu, load}, Matrix::Identity(3, 3), omega),
+                            harmonics, in_plane);
     CHECK(plane.size() >= line.size() + 2);
     CHECK(distance(line, plane) < 1e-9);
   }
@@ -172,7 +172,7 @@ TEST_CASE("a pad that sticks in the plane has the multipliers of its springs, an
   const elements::Harmonics harmonics{1};
   Matrix q = Matrix::Zero(harmonics.size(), 3);
   q(1, 0) = q(2, 1) = q(1, 2) = 1;
-  const auto found = multipliers(equation, harmonics, q);
+  const auto found = floquet_multipliers(equation, harmonics, q);
   REQUIRE(found.size() == 6);
   const double c = 0.07 / 1.1;
   std::vector<Complex> exact;

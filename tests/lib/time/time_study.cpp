@@ -1,5 +1,6 @@
 #include "catalogue.hpp"
 #include "catch.hpp"
+#include "environment.hpp"
 #include "lib/observables/reference.hpp"
 
 #include <arcslip/observables/frequency_response.hpp>
@@ -20,7 +21,7 @@ using observables::TimeSettings;
 namespace {
 
 scene::Scene example(const std::string& name) {
-  return scene::read_file(ARCSLIP_SOURCE_DIR "/examples/" + name + "/scene.json", test_catalogue::whole());
+  return scene::read_file(source_folder() + "/examples/" + name + "/scene.json", test_catalogue::whole());
 }
 
 TimeSettings at(double frequency, TimeMethod method = TimeMethod::shooting, int steps = 200) {

@@ -1,0 +1,71 @@
+# The options of the compiler and the linker.
+
+option(ARCSLIP_UNITY "Compile several files of a room as one: half the time of a whole build, more for a single change" ON)
+option(ARCSLIP_SANITIZE "Build with address and undefined-behaviour sanitizers" OFF)
+option(ARCSLIP_HARDENING "Guards against overruns of buffers in optimised builds" ON)
+
+# For what computes nothing in loops. At -O1 GCC takes values of std::optional for uninitialized.
+set(arcslip_light $<$<CONFIG:Release>:-O1>)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  list(APPEND arcslip_light $<$<CONFIG:Release>:-Wno-maybe-uninitialized>)
+endif()
+
+# GCC inlines less in a translation unit of many functions: in a batch, as much as in each of its files.
+set(arcslip_heavy "")
+if(ARCSLIP_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(arcslip_heavy --param=large-unit-insns=1000000)
+endif()
+
+if(PROJECT_IS_TOP_LEVEL)
+  # Paths in messages and assertions are relative to the source: two builds of one tree in two folders are the same.
+  add_compile_options(-ffile-prefix-map=${PROJECT_BINARY_DIR}/= -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
+  set(CMAKE_BUILD_RPATH_USE_ORIGIN ON)
+endif()
+
+# Where ccache is there, objects are kept from build to build, and serve builds of the same tree in other folders: paths below
+# the source are hashed as relative ones. With precompiled headers it needs to be told so.
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  find_program(ARCSLIP_CCACHE ccache)
+  mark_as_advanced(ARCSLIP_CCACHE)
+  if(ARCSLIP_CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+      CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+      CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=true ${ARCSLIP_CCACHE})
+    add_compile_options(-fpch-preprocess)
+  endif()
+endif()
+
+# A linker that takes a fraction of the time of the default one, where it is there.
+if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  find_program(ARCSLIP_LINKER NAMES mold ld.lld)
+  mark_as_advanced(ARCSLIP_LINKER)
+  if(ARCSLIP_LINKER MATCHES "mold$")
+    add_link_options(-fuse-ld=mold)
+  elseif(ARCSLIP_LINKER MATCHES "lld$")
+    add_link_options(-fuse-ld=lld)
+  endif()
+endif()
+
+function(arcslip_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  # No fused multiply-add that the source does not ask for: the same digits on every processor.
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # False alarms of GCC 12 on "text" + std::string: https://gcc.gnu.org/bugzilla/show_bug.cgi?id=105651
+    target_compile_options(${target} PRIVATE -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
+  endif()
+  if(ARCSLIP_HARDENING AND NOT ARCSLIP_SANITIZE)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-fstack-protector-strong;-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2>)
+    target_link_options(${target} PRIVATE $<$<CONFIG:Release>:LINKER:-z,relro,-z,now>)
+  endif()
+  if(ARCSLIP_SANITIZE)
+    # A null pointer that is read or written ends with a report of the address sanitizer, and Eigen asserts the alignment
+    # it needs: checks of both at every access would take a third of the time to compile and to run.
+    target_compile_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=address,undefined;-fno-sanitize=null,alignment>
+      $<BUILD_INTERFACE:-fno-sanitize-recover=all;-fno-omit-frame-pointer>)
+    target_link_options(${target} PUBLIC $<BUILD_INTERFACE:-fsanitize=address,undefined>)
+    # What is read before it is set is NaN.
+    target_compile_definitions(${target} PUBLIC $<BUILD_INTERFACE:EIGEN_INITIALIZE_MATRICES_BY_NAN>)
+  endif()
+endfunction()
