@@ -62,6 +62,8 @@ void multiply(Into into, bool small, Scalar factor, const Columns<Left>& A, cons
     multiply_into(into, c, a, b);
   else if constexpr (std::is_same_v<Scalar, Left>)
     multiply_into(into, c, factor * a, b);
+  else if (std::imag(factor) == 0)
+    multiply_into(into, c, std::real(factor) * a, b);
   else
     multiply_into(into, c, a, factor * b);
 }
@@ -72,17 +74,22 @@ void multiply(Into into, bool small, Scalar factor, const Columns<Left>& A, cons
 using Real = double;
 using Complex = std::complex<double>;
 ARCSLIP_MULTIPLY(Real, Real, false, Real, false, 1)
-ARCSLIP_MULTIPLY(Real, Real, true, Real, false, 1)
 ARCSLIP_MULTIPLY(Real, Real, false, Real, true, 1)
+ARCSLIP_MULTIPLY(Real, Real, true, Real, false, 1)
 ARCSLIP_MULTIPLY(Real, Real, true, Real, true, 1)
-ARCSLIP_MULTIPLY(Real, Real, true, Real, false, 2)
 ARCSLIP_MULTIPLY(Complex, Complex, false, Complex, false, 1)
+ARCSLIP_MULTIPLY(Complex, Complex, false, Complex, true, 1)
 ARCSLIP_MULTIPLY(Complex, Complex, true, Complex, false, 1)
+ARCSLIP_MULTIPLY(Complex, Complex, true, Complex, true, 1)
 ARCSLIP_MULTIPLY(Complex, Real, false, Complex, false, 1)
+ARCSLIP_MULTIPLY(Complex, Real, false, Complex, true, 1)
 ARCSLIP_MULTIPLY(Complex, Real, true, Complex, false, 1)
+ARCSLIP_MULTIPLY(Complex, Real, true, Complex, true, 1)
 ARCSLIP_MULTIPLY(Complex, Complex, false, Real, false, 1)
-ARCSLIP_MULTIPLY(Complex, Complex, true, Real, false, 1)
 ARCSLIP_MULTIPLY(Complex, Complex, false, Real, true, 1)
+ARCSLIP_MULTIPLY(Complex, Complex, true, Real, false, 1)
+ARCSLIP_MULTIPLY(Complex, Complex, true, Real, true, 1)
+ARCSLIP_MULTIPLY(Real, Real, true, Real, false, 2)  // into real or imaginary parts
 #undef ARCSLIP_MULTIPLY
 
 }  // namespace arcslip::continuation
