@@ -42,7 +42,7 @@ void run_script(const Workplace& place, const OutputPath& row, const Verb& verb)
                             replaced(row.script, "VERB", verb.name + " " + verb.arguments) + "\n");
   const std::string command = std::string(row.needs_mount ? "unshare -rm " : "") + "sh '" + place.path() +
                               "/script' > /dev/null 2> '" + place.path() + "/err'";
-  static_cast<void>(std::system(command.c_str()));
+  [[maybe_unused]] const int status = std::system(command.c_str());  // the script writes it to a file
 }
 
 bool mounts() {
