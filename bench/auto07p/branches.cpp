@@ -114,8 +114,7 @@ Case chan() {
 
 // x'' + 0.1 x' + x + x^3 = 0.1 cos wt
 Case duffing(int order) {
-  scene::Scene scene =
-      scene::read_file("bench/auto07p/duffing.json", studies::catalogue());
+  scene::Scene scene = scene::read_file("bench/auto07p/duffing.json", studies::catalogue());
   scene.harmonics.order = order;
   const auto model = std::make_shared<const model::Model>(model::build(scene));
   const Options options = window(0.5, 1.6);
