@@ -260,24 +260,26 @@ class OptimumStudy : public KeyedStudy<OptimumSettings> {
                                        const scene::RunOptions& options, std::size_t schema,
                                        results::Sink& sink) const override {
     const OptimumSettings settings = with_places(scene, study.settings.as<OptimumSettings>());
-    if (settings.along)
-      return studies::run_items(
-          scene, study, options, described_curves(scene, settings.problem, settings.along->name), schema,
-          sink,
+    if (settings.along) {
+      studies::ComputationOf<OptimumCurveResult> curves(
+          described_curves(scene, settings.problem, settings.along->name),
           [&](const studies::Case& at, const results::ProgressCallback& progress) {
             return std::vector{optimum_curve_study(at.scene, settings, progress)};
           },
-          [](std::span<const OptimumCurveResult> curves) { return std::optional(truncation_of(curves)); },
-          [&](std::span<const OptimumCurveResult> curves) { return std::vector{figures_of(scene, curves)}; });
-    return studies::run_items(
-        scene, study, options, described_optima(scene, settings.problem), schema, sink,
+          [&](std::span<const OptimumCurveResult> all) { return std::vector{figures_of(scene, all)}; });
+      curves.truncation_of_items = [](std::span<const OptimumCurveResult> all) { return truncation_of(all); };
+      return studies::run_computation(scene, study, options, schema, sink, curves);
+    }
+    studies::ComputationOf<OptimumResult> optima(
+        described_optima(scene, settings.problem),
         [&](const studies::Case& at, const results::ProgressCallback& progress) {
           return std::vector{optimum_study(
               at.scene, settings, progress,
               {.curves = options.figures, .alone = at.alone, .threads = at.alone ? options.threads : 1})};
         },
-        [](std::span<const OptimumResult> optima) { return std::optional(truncation_of(optima)); },
-        [&](std::span<const OptimumResult> optima) { return figures_of(scene, optima); });
+        [&](std::span<const OptimumResult> all) { return figures_of(scene, all); });
+    optima.truncation_of_items = [](std::span<const OptimumResult> all) { return truncation_of(all); };
+    return studies::run_computation(scene, study, options, schema, sink, optima);
   }
 };
 

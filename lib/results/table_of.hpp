@@ -60,7 +60,7 @@ class TableOf {
     using Got = std::decay_t<std::invoke_result_t<Get, const Item&>>;
     constexpr Type type = detail::type_of<typename detail::Optional<Got>::Value>();
     columns_.push_back({std::move(path), type, std::move(unit), std::move(help)});
-    fill_.push_back([get = std::move(get)](Items items) { return cells<type>(items, get); });
+    fill_.push_back(filler<Got>(std::move(get)));
   }
 
   /// The columns of a part of the item, behind keys of their own. get(item): a pointer to the part; null: the
@@ -104,10 +104,15 @@ class TableOf {
   template <class Other>
   friend class TableOf;
 
-  template <Type type, class Get>
-  static Cells cells(Items items, const Get& get) {
-    using Got = std::decay_t<std::invoke_result_t<Get, const Item&>>;
-    constexpr auto index = static_cast<std::size_t>(type);
+  // Compiled once for all columns of a type.
+  template <class Got>
+  static std::function<Cells(Items)> filler(std::function<Got(const Item&)> get) {
+    return [get = std::move(get)](Items items) { return cells<Got>(items, get); };
+  }
+
+  template <class Got>
+  static Cells cells(Items items, const std::function<Got(const Item&)>& get) {
+    constexpr auto index = static_cast<std::size_t>(detail::type_of<typename detail::Optional<Got>::Value>());
     Cells cells{decltype(Cells::of)(std::in_place_index<index>)};
     auto& list = std::get<index>(cells.of);
     using Cell = typename std::decay_t<decltype(list)>::value_type;

@@ -43,130 +43,122 @@ struct KeyGroup {
   std::function<void(Settings&, std::vector<NamedFile*>&)> files{};   // that are named here
 };
 
-// Standard groups of keys, defined by the targets of their values. A missing or invalid value leaves its
-// target unchanged.
+/// A part of the settings as a group of its own: settings within settings, or a single value.
+template <class S, class Part>
+KeyGroup<S> within(Part S::*part, KeyGroup<Part> group) {
+  KeyGroup<S> all{
+      std::move(group.keys),
+      [part, read = std::move(group.read)](const Reading& reading, S& s) { read(reading, s.*part); },
+      [part, write = std::move(group.write)](const S& s, const Scene& scene, Node::Object& to) {
+        write(s.*part, scene, to);
+      }};
+  if (group.taken)
+    all.taken = [part, of = std::move(group.taken)](const S& s, std::vector<Taken>& taken) {
+      of(s.*part, taken);
+    };
+  if (group.drop)
+    all.drop = [part, of = std::move(group.drop)](std::string_view parameter, S& s) {
+      of(parameter, s.*part);
+    };
+  if (group.files)
+    all.files = [part, of = std::move(group.files)](S& s, std::vector<NamedFile*>& files) {
+      of(s.*part, files);
+    };
+  return all;
+}
+
+/// Two values as a group of a pair.
+template <class S>
+KeyGroup<S> within(double S::*first, double S::*second, KeyGroup<std::pair<double, double>> group) {
+  return {std::move(group.keys),
+          [=, read = std::move(group.read)](const Reading& reading, S& s) {
+            std::pair<double, double> both{s.*first, s.*second};
+            read(reading, both);
+            std::tie(s.*first, s.*second) = both;
+          },
+          [=, write = std::move(group.write)](const S& s, const Scene& scene, Node::Object& to) {
+            write({s.*first, s.*second}, scene, to);
+          }};
+}
+
+// Standard groups of keys, defined by the targets of their values: of a value alone, which is compiled once,
+// and of members of settings. A missing or invalid value leaves its target unchanged.
+
+/// "from" and "to" of a field, from < to.
+std::pair<double, double> read_range(const Reading& reading, const Field& field);
 
 /// "from" and "to" in the unit of the scene's frequencies, from < to.
-std::pair<double, double> read_frequency_range(const Reading& reading);
+KeyGroup<std::pair<double, double>> frequency_range();
+template <class S>
+KeyGroup<S> frequency_range(double S::*from, double S::*to) {
+  return within(from, to, frequency_range());
+}
+
 /// "over", a parameter, and its range "from" and "to".
 struct RangeOver {
   std::string over;
   double from = 0, to = 0;
 };
-RangeOver read_range_over(const Reading& reading);
-/// "frequency": a window [lower, upper], or a single frequency.
-std::pair<double, double> read_window(const Reading& reading);
-/// A window [lower, upper] of a field, under its name.
-std::pair<double, double> read_window(const Reading& reading, const Field& field);
-double read_frequency(const Reading& reading);
-/// "from" and "to" of a field.
-std::pair<double, double> read_range(const Reading& reading, const Field& field);
-
-template <class S>
-KeyGroup<S> frequency_range(double S::*from, double S::*to) {
-  return {{{"from", KeyType::frequency, "frequency", "above 0", "", true, "first frequency"},
-           {"to", KeyType::frequency, "frequency", "above \"from\"", "", true, "last frequency"}},
-          [=](const Reading& reading, S& s) { std::tie(s.*from, s.*to) = read_frequency_range(reading); },
-          [=](const S& s, const Scene&, Node::Object& to_file) {
-            to_file.push_back({"from", node(s.*from)});
-            to_file.push_back({"to", node(s.*to)});
-          }};
-}
-
+KeyGroup<RangeOver> range_over();
 template <class S>
 KeyGroup<S> range_over(std::string S::*over, double S::*from, double S::*to) {
-  return {{{"over", KeyType::parameter, "", "a parameter \"part.field\" or a tie", "", true,
-            "the parameter to vary"},
-           {"from", KeyType::value, "parameter", "within the parameter's bounds", "", true,
-            "first value of the parameter"},
-           {"to", KeyType::value, "parameter", "above \"from\"", "", true, "last value of the parameter"}},
-          [=](const Reading& reading, S& s) {
-            const RangeOver range = read_range_over(reading);
-            s.*over = range.over;
-            s.*from = range.from;
-            s.*to = range.to;
+  KeyGroup<RangeOver> range = range_over();
+  return {std::move(range.keys),
+          [=, read = std::move(range.read)](const Reading& reading, S& s) {
+            RangeOver all;
+            read(reading, all);
+            std::tie(s.*over, s.*from, s.*to) = std::tie(all.over, all.from, all.to);
           },
-          [=](const S& s, const Scene&, Node::Object& to_file) {
-            to_file.push_back({"over", node(s.*over)});
-            to_file.push_back({"from", node(s.*from)});
-            to_file.push_back({"to", node(s.*to)});
+          [=, write = std::move(range.write)](const S& s, const Scene& scene, Node::Object& to_file) {
+            write({s.*over, s.*from, s.*to}, scene, to_file);
           },
-          [=](const S& s, std::vector<Taken>& all) {
-            if (!(s.*over).empty()) all.push_back({s.*over, "which the study is \"over\""});
+          [=, taken = std::move(range.taken)](const S& s, std::vector<Taken>& all) {
+            taken({s.*over, s.*from, s.*to}, all);
           }};
 }
 
+/// "frequency": a window [lower, upper] of frequencies.
+KeyGroup<std::pair<double, double>> window();
 template <class S>
 KeyGroup<S> window(double S::*lower, double S::*upper) {
-  return {{{"frequency", KeyType::window, "frequency", "[lower, upper], 0 < lower < upper", "", true,
-            "the frequency window"}},
-          [=](const Reading& reading, S& s) { std::tie(s.*lower, s.*upper) = read_window(reading); },
-          [=](const S& s, const Scene&, Node::Object& to_file) {
-            to_file.push_back({"frequency", node(std::vector{s.*lower, s.*upper})});
-          }};
+  return within(lower, upper, window());
 }
 
 /// A window of another field, whose bounds are open at 0.
+KeyGroup<std::pair<double, double>> window_of(const Field& field, std::string help);
 template <class S>
 KeyGroup<S> window_of(double S::*lower, double S::*upper, const Field& field, std::string help) {
-  const std::string name(field.name);
-  return {{{name, KeyType::window, std::string(field.unit), "[from, to], 0 < from < to", "", true,
-            std::move(help)}},
-          [=](const Reading& reading, S& s) { std::tie(s.*lower, s.*upper) = read_window(reading, field); },
-          [=](const S& s, const Scene&, Node::Object& to_file) {
-            to_file.push_back({name, node(std::vector{s.*lower, s.*upper})});
-          }};
+  return within(lower, upper, window_of(field, std::move(help)));
 }
 
+/// "frequency": a single one.
+KeyGroup<double> one_frequency(std::string help);
 template <class S>
 KeyGroup<S> one_frequency(double S::*frequency, std::string help) {
-  return {{{"frequency", KeyType::frequency, "frequency", "above 0", "", true, std::move(help)}},
-          [=](const Reading& reading, S& s) { s.*frequency = read_frequency(reading); },
-          [=](const S& s, const Scene&, Node::Object& to_file) {
-            to_file.push_back({"frequency", node(s.*frequency)});
-          }};
+  return within(frequency, one_frequency(std::move(help)));
 }
 
 /// A number with a default. field: its name, unit and bounds.
+KeyGroup<double> number(const Field& field, double otherwise, std::string help);
 template <class S>
 KeyGroup<S> number(double S::*value, const Field& field, std::string help) {
-  const std::string name(field.name);
-  return {{{name, KeyType::number, std::string(field.unit), allowed_text(field), json_text(node(S{}.*value)),
-            false, std::move(help), field.lower, field.upper, field.lower_open}},
-          [=](const Reading& reading, S& s) {
-            s.*value = read_number(reading.keys.find(name), field, reading.faults).value_or(s.*value);
-          },
-          [=](const S& s, const Scene&, Node::Object& to_file) {
-            to_file.push_back({name, node(s.*value)});
-          }};
+  return within(value, number(field, S{}.*value, std::move(help)));
 }
 
 /// A whole number with a default.
+KeyGroup<int> whole(const std::string& name, int otherwise, int lower, int upper, std::string help);
 template <class S>
 KeyGroup<S> whole(const std::string& name, int S::*value, int lower, int upper, std::string help) {
-  return {{{name, KeyType::whole, "-",
-            "an integer from " + std::to_string(lower) + " to " + std::to_string(upper),
-            json_text(node(S{}.*value)), false, std::move(help), static_cast<double>(lower),
-            static_cast<double>(upper)}},
-          [=](const Reading& reading, S& s) {
-            s.*value = read_integer(reading.keys.find(name), lower, upper, reading.faults).value_or(s.*value);
-          },
-          [=](const S& s, const Scene&, Node::Object& to_file) {
-            to_file.push_back({name, node(s.*value)});
-          }};
+  return within(value, whole(name, S{}.*value, lower, upper, std::move(help)));
 }
 
 /// An optional text. what: "a string, the name of an NLopt algorithm".
+KeyGroup<std::string> text(const std::string& name, const std::string& what, std::string otherwise,
+                           std::string help);
 template <class S>
 KeyGroup<S> text(const std::string& name, std::string S::*value, const std::string& what,
                  std::string otherwise, std::string help) {
-  return {{{name, KeyType::text, "", what, std::move(otherwise), false, std::move(help)}},
-          [=](const Reading& reading, S& s) {
-            s.*value = read_string(reading.keys.find(name), what, reading.faults).value_or(s.*value);
-          },
-          [=](const S& s, const Scene&, Node::Object& to_file) {
-            if (!(s.*value).empty()) to_file.push_back({name, node(s.*value)});
-          }};
+  return within(value, text(name, what, std::move(otherwise), std::move(help)));
 }
 
 /// The text of a file, of at most so many bytes.
@@ -174,28 +166,19 @@ std::optional<NamedFile> read_file_of(const Location& place, const std::string& 
                                       std::size_t largest = largest_size);
 
 /// The path of a file, which is read with the scene. what: "a string, the path of a table of q and f".
+KeyGroup<NamedFile> named_file(const std::string& name, const std::string& what, std::string help);
 template <class S>
 KeyGroup<S> named_file(const std::string& name, NamedFile S::*value, const std::string& what,
                        std::string help) {
-  return {
-      {{name, KeyType::text, "", what, "", true, std::move(help)}},
-      [=](const Reading& reading, S& s) {
-        s.*value =
-            read_file_of(reading.keys.require(name, what, reading.faults), what, reading).value_or(s.*value);
-      },
-      [=](const S& s, const Scene&, Node::Object& to_file) {
-        to_file.push_back({name, node((s.*value).path)});
-      },
-      {},
-      {},
-      [=](S& s, std::vector<NamedFile*>& files) { files.push_back(&(s.*value)); }};
+  return within(value, named_file(name, what, std::move(help)));
 }
 
 /// One of a few words with a default.
+Key word_key(const std::string& name, std::vector<std::string> words, std::string_view otherwise,
+             std::string help);
 template <class S, class Choice, class Words>
 KeyGroup<S> word(const std::string& name, Choice S::*value, const Words& words, std::string help) {
-  return {{{name, KeyType::word, "", "one of " + listed(texts(words)),
-            json_text(node(word_of(words, S{}.*value))), false, std::move(help), 0, 0, false, texts(words)}},
+  return {{word_key(name, texts(words), word_of(words, S{}.*value), std::move(help))},
           [=](const Reading& reading, S& s) {
             s.*value = read_choice(reading.keys.find(name), words, s.*value, reading.faults);
           },
@@ -205,34 +188,10 @@ KeyGroup<S> word(const std::string& name, Choice S::*value, const Words& words, 
 }
 
 /// True or false, with a default.
+KeyGroup<bool> flag(const std::string& name, bool otherwise, std::string help);
 template <class S>
 KeyGroup<S> flag(const std::string& name, bool S::*value, std::string help) {
-  Key key{name, KeyType::other, "", "true or false", S{}.*value ? "true" : "false", false, std::move(help)};
-  key.schema = R"({"type": "boolean"})";
-  return {{key},
-          [=](const Reading& reading, S& s) {
-            const Location place = reading.keys.find(name);
-            if (place.node == nullptr) return;
-            if (const bool* is = place.node->get<bool>())
-              s.*value = *is;
-            else
-              add_wrong_type(place, key.allowed, reading.faults);
-          },
-          [=](const S& s, const Scene&, Node::Object& to_file) {
-            to_file.push_back({name, Node{s.*value}});
-          }};
-}
-
-/// Keys of settings within settings.
-template <class S, class Part>
-KeyGroup<S> within(Part S::*part, KeyGroup<Part> group) {
-  KeyGroup<S> all{
-      group.keys, [=](const Reading& reading, S& s) { group.read(reading, s.*part); },
-      [=](const S& s, const Scene& scene, Node::Object& to_file) { group.write(s.*part, scene, to_file); }};
-  if (group.taken) all.taken = [=](const S& s, std::vector<Taken>& taken) { group.taken(s.*part, taken); };
-  if (group.drop) all.drop = [=](std::string_view parameter, S& s) { group.drop(parameter, s.*part); };
-  if (group.files) all.files = [=](S& s, std::vector<NamedFile*>& files) { group.files(s.*part, files); };
-  return all;
+  return within(value, flag(name, S{}.*value, std::move(help)));
 }
 
 template <class S>

@@ -1,0 +1,167 @@
+#include <arcslip/studies/computation.hpp>
+
+#include <arcslip/scene/highest_harmonic.hpp>
+#include <arcslip/studies/in_order.hpp>
+
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace arcslip::studies {
+namespace {
+
+/// The first combination that is being computed, and how far it is.
+class FirstOfSeveral {
+ public:
+  FirstOfSeveral(std::size_t count, const results::ProgressCallback& progress)
+      : count_(count), progress_(progress) {}
+
+  /// False: to end.
+  bool tell(std::size_t k, const results::Progress& now) {
+    const std::lock_guard lock(mutex_);
+    last_[k] = now;
+    results::Progress& of_first = last_[first_];  // also before its own first report
+    of_first.branch = static_cast<int>(first_);
+    of_first.branches = static_cast<int>(count_);
+    if (progress_ && !progress_(of_first)) goes_on = false;
+    return goes_on;
+  }
+
+  void end(std::size_t k) {
+    const std::lock_guard lock(mutex_);
+    last_.erase(k);
+    ended_.insert(k);
+    while (ended_.erase(first_) == 1) ++first_;
+  }
+
+  std::atomic<bool> goes_on = true;
+
+ private:
+  std::size_t count_;
+  const results::ProgressCallback& progress_;
+  std::mutex mutex_;
+  std::map<std::size_t, results::Progress> last_;  // report of each that is not computed to its end
+  std::size_t first_ = 0;                          // of them; all before it are computed
+  std::set<std::size_t> ended_;                    // after it
+};
+
+struct Computed {
+  std::unique_ptr<Items> items;
+  std::optional<OrderSelection> selection;
+  scene::Harmonics harmonics;
+};
+
+/// With rising orders until one has the accuracy.
+void compute_by_orders(const Computation& of, const Case& at, const results::ProgressCallback& progress,
+                       Computed& found) {
+  scene::Scene with = at.scene;
+  OrderSelection& selection = found.selection.emplace(at.scene);
+  for (bool first = true;; first = false) {
+    selection.set_order(with);
+    bool goes_on = true;
+    const auto tell = [&](results::Progress now) {
+      now.order = with.harmonics.order;
+      goes_on = !progress || progress(now);
+      return goes_on;
+    };
+    const Case higher{with, at.alone};
+    std::optional<RefinedItems> refined;
+    if (!first) refined = of.refine(higher, *found.items, at.scene.harmonics.accuracy, tell);
+    std::unique_ptr<Items> items;
+    if (refined)
+      items = std::move(refined->items);
+    else if (goes_on)
+      items = of.compute(higher, tell);
+    if (!goes_on && !first) {
+      selection.give_up();
+      return;
+    }
+    found.items = std::move(items);
+    found.harmonics = with.harmonics;
+    Truncation truncation = of.truncation(*found.items);
+    if (refined) truncation.change = refined->change;
+    if (!selection.rises(truncation)) return;
+  }
+}
+
+Computed compute(const Computation& of, const Case& at, const results::ProgressCallback& progress) {
+  Computed found{{}, {}, at.scene.harmonics};
+  if (at.scene.harmonics.accuracy == 0) {
+    found.items = of.compute(at, progress);
+  } else if (!of.has_truncation()) {
+    scene::Scene with = at.scene;
+    set_order_of_starts(with);
+    found.items = of.compute({with, at.alone}, progress);
+  } else {
+    compute_by_orders(of, at, progress, found);
+  }
+  return found;
+}
+
+using Compute = std::function<Computed(const Case& at, const results::ProgressCallback& progress)>;
+using Take = std::function<void(Computed computed)>;
+
+void for_each_combination(const scene::Scene& scene, const scene::Combinations& all, int threads,
+                          const Compute& compute_one, const results::ProgressCallback& progress,
+                          const Take& take) {
+  FirstOfSeveral first(all.size(), progress);
+  const auto make = [&](std::size_t k) {
+    scene::Setting set = all[k];
+    scene::Scene with = scene;
+    with.threads.count = threads_for_each(threads, all.size());
+    for (const auto& [name, value] : set) scene::set(with, name, value);
+    Computed computed = compute_one({with, all.size() == 1},
+                                    [&](const results::Progress& now) { return first.tell(k, now); });
+    for (std::size_t i = 0; i < computed.items->size(); ++i) computed.items->put_set(i, set);
+    first.end(k);
+    return computed;
+  };
+  in_order(all.size(), threads, first.goes_on, make, take);
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<Items>> items_of_each(
+    const scene::Scene& scene, const scene::Combinations& all,
+    const std::function<std::unique_ptr<Items>(const Case&, const results::ProgressCallback&)>& compute,
+    const results::ProgressCallback& progress) {
+  std::vector<std::unique_ptr<Items>> items;
+  for_each_combination(
+      scene, all, 1,
+      [&](const Case& at, const results::ProgressCallback& tell) {
+        return Computed{compute(at, tell), {}, {}};
+      },
+      progress, [&](Computed computed) { items.push_back(std::move(computed.items)); });
+  return items;
+}
+
+std::vector<results::FigureData> run_computation(const scene::Scene& scene, const scene::Study& study,
+                                                 const scene::RunOptions& options, std::size_t schema,
+                                                 results::Sink& sink, const Computation& computation) {
+  std::vector<std::unique_ptr<Items>> kept;
+  scene::Scene with_order = scene;
+  const auto take = [&](Computed computed) {
+    with_order.harmonics = computed.harmonics;
+    const std::string beyond = scene::beyond_reduction(with_order, study);
+    for (std::size_t i = 0; i < computed.items->size(); ++i) {
+      computed.items->put_study(i, study);
+      results::Result result = computation.result(*computed.items, i);
+      if (computed.selection) computed.selection->tell(result.end);
+      if (!beyond.empty()) result.end.doubt += (result.end.doubt.empty() ? "" : "; ") + beyond;
+      results::hand(result, schema, sink);
+    }
+    if (options.figures) kept.push_back(std::move(computed.items));
+  };
+  for_each_combination(
+      scene, scene::Combinations(study), options.threads,
+      [&](const Case& at, const results::ProgressCallback& progress) {
+        return compute(computation, at, progress);
+      },
+      options.progress, take);
+  return options.figures ? computation.figures(std::move(kept)) : std::vector<results::FigureData>();
+}
+
+}  // namespace arcslip::studies

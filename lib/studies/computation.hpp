@@ -1,0 +1,76 @@
+#pragma once
+// A study over the combinations of its for_each lists, and over the orders of the harmonics of each.
+
+#include <arcslip/results/result.hpp>
+#include <arcslip/scene/combinations.hpp>
+#include <arcslip/scene/scene.hpp>
+#include <arcslip/scene/study_type.hpp>
+#include <arcslip/studies/order_selection.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace arcslip::studies {
+
+/// One combination of a study's lists.
+struct Case {
+  const scene::Scene& scene;  // with its values
+  bool alone = true;          // it is the only one
+};
+
+/// What a study computes for one combination: branches, motions or optima, of a type that only the study
+/// knows.
+class Items {
+ public:
+  virtual ~Items() = default;
+  virtual std::size_t size() const = 0;
+  /// Tells item i which parameters are set, which it then does not list among its own.
+  virtual void put_set(std::size_t i, const scene::Setting& set) = 0;
+  /// Tells item i of which study it is.
+  virtual void put_study(std::size_t i, const scene::Study& study) = 0;
+};
+
+/// Items of more harmonics, where only parts of them had to be computed anew.
+struct RefinedItems {
+  std::unique_ptr<Items> items;
+  double change = 0;  // Truncation::change
+};
+
+/// A study of a scene, with its settings. Items that are passed are those of its own compute() or refine().
+class Computation {
+ public:
+  virtual ~Computation() = default;
+  /// Of one combination. Several threads may call it at the same time.
+  virtual std::unique_ptr<Items> compute(const Case& at, const results::ProgressCallback& progress) const = 0;
+  /// Whether the accuracy of the results depends on the harmonics.
+  virtual bool has_truncation() const = 0;
+  /// What harmonics left out do to the items of a combination, where has_truncation().
+  virtual Truncation truncation(const Items& items) const = 0;
+  /// From the items of fewer harmonics, those of the scene of a case; nothing: compute() has to do it.
+  virtual std::optional<RefinedItems> refine(const Case& at, const Items& coarse, double accuracy,
+                                             const results::ProgressCallback& progress) const = 0;
+  virtual results::Result result(const Items& items, std::size_t i) const = 0;
+  /// Of the items of all combinations.
+  virtual std::vector<results::FigureData> figures(std::vector<std::unique_ptr<Items>> all) const = 0;
+};
+
+/// The items of one combination after the other, with the parameters set. After a stop by the callback no
+/// further combination is started.
+std::vector<std::unique_ptr<Items>> items_of_each(
+    const scene::Scene& scene, const scene::Combinations& all,
+    const std::function<std::unique_ptr<Items>(const Case&, const results::ProgressCallback&)>& compute,
+    const results::ProgressCallback& progress);
+
+/// StudyType::run(): up to options.threads combinations are computed at the same time, with the threads that
+/// are left for their elements, and results are handed to the sink in the order of the combinations, by this
+/// thread. After a stop by options.progress no further combination is started; it is called by one thread at
+/// a time, and told of the first combination that is being computed. Items are kept only if figures are
+/// requested.
+std::vector<results::FigureData> run_computation(const scene::Scene& scene, const scene::Study& study,
+                                                 const scene::RunOptions& options, std::size_t schema,
+                                                 results::Sink& sink, const Computation& computation);
+
+}  // namespace arcslip::studies
