@@ -4,16 +4,27 @@ option(ARCSLIP_UNITY "Compile several files of a room as one: half the time of a
 option(ARCSLIP_SANITIZE "Build with address and undefined-behaviour sanitizers" OFF)
 option(ARCSLIP_HARDENING "Guards against overruns of buffers in optimised builds" ON)
 
-# For what computes nothing in loops. At -O1 GCC takes values of std::optional for uninitialized.
+# For what takes little of the time of a run. At -O1 GCC takes values of std::optional for uninitialized.
 set(arcslip_light $<$<CONFIG:Release>:-O1>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND arcslip_light $<$<CONFIG:Release>:-Wno-maybe-uninitialized>)
 endif()
 
-# GCC inlines less in a translation unit of many functions: in a batch, as much as in each of its files.
+# The rest: under the sanitizers, too, it is optimised, which takes half more to compile and less than half to run.
 set(arcslip_heavy "")
-if(ARCSLIP_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  set(arcslip_heavy --param=large-unit-insns=1000000)
+if(ARCSLIP_SANITIZE)
+  set(arcslip_heavy -O1)
+endif()
+
+# GCC looks for memory that it no longer needs from 128 MB on, which takes a tenth of its time: from 1 GB on where there is
+# enough for as many compilers as processors.
+if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  cmake_host_system_information(RESULT memory QUERY TOTAL_PHYSICAL_MEMORY)  # in MB
+  cmake_host_system_information(RESULT processors QUERY NUMBER_OF_LOGICAL_CORES)
+  math(EXPR memory "${memory} / ${processors}")
+  if(memory GREATER 3000)
+    add_compile_options(--param=ggc-min-heapsize=1000000)
+  endif()
 endif()
 
 if(PROJECT_IS_TOP_LEVEL)
@@ -55,10 +66,18 @@ function(arcslip_compile_options target)
     # False alarms of GCC 12 on "text" + std::string: https://gcc.gnu.org/bugzilla/show_bug.cgi?id=105651
     target_compile_options(${target} PRIVATE -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
   endif()
+endfunction()
+
+# What is installed, in release.
+function(arcslip_harden target)
   if(ARCSLIP_HARDENING AND NOT ARCSLIP_SANITIZE)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-fstack-protector-strong;-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2>)
     target_link_options(${target} PRIVATE $<$<CONFIG:Release>:LINKER:-z,relro,-z,now>)
   endif()
+endfunction()
+
+# Of a library; what links it is compiled alike.
+function(arcslip_sanitize target)
   if(ARCSLIP_SANITIZE)
     # A null pointer that is read or written ends with a report of the address sanitizer, and Eigen asserts the alignment
     # it needs: checks of both at every access would take a third of the time to compile and to run.

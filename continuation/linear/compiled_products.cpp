@@ -5,6 +5,10 @@
 
 #include <utility>
 
+#ifdef ARCSLIP_VECTOR_KERNELS
+ARCSLIP_VECTOR_KERNELS()
+#endif
+
 namespace arcslip::continuation {
 namespace {
 
@@ -58,7 +62,7 @@ void multiply(Into into, bool small, Scalar factor, const Columns<Left>& A, cons
                                                         Eigen::DenseShape, Eigen::GemmProduct>;
   if (!small)
     Product::scaleAndAddTo(c, a, b, factor);
-  else if (factor == Scalar(1))
+  else if (Eigen::NumTraits<Scalar>::IsComplex && factor == Scalar(1))  // which is not exact
     multiply_into(into, c, a, b);
   else if constexpr (std::is_same_v<Scalar, Left>)
     multiply_into(into, c, factor * a, b);

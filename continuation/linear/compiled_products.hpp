@@ -5,11 +5,12 @@
 // block, a transpose, a sum), with its paths for small and large sizes and for vectors: half of the time that
 // this library took to compile. Here those with scalars double or complex<double> are handed to one function,
 // which takes the operands as columns in memory and calls Eigen for them: the same operations in the same
-// order. Other operands that are expressions are evaluated first, as Eigen does.
+// order, but where an operand has a factor and the product a single entry, whose last digit may differ. Other
+// operands that are expressions are evaluated first, as Eigen does.
 //
 // The build puts this header before each of its files. It is not installed: a program that includes public
-// headers has the products of Eigen. All that is defined here is inlined, so that no symbol of Eigen has two
-// meanings in one program.
+// headers has the products of Eigen. All that is defined here is inlined into functions of Eigen, of which a
+// program may have a copy with and one without it: the tests hold the two to the same values.
 
 #include <Eigen/Core>
 
@@ -36,8 +37,29 @@ void multiply(Into into, bool small, Scalar factor, const Columns<Left>& A, cons
 
 }  // namespace arcslip::continuation
 
-#if EIGEN_WORLD_VERSION == 3 && EIGEN_MAJOR_VERSION == 4 && \
-    !defined(ARCSLIP_PRODUCTS_OF_EIGEN)  // whose internals these are
+#if EIGEN_WORLD_VERSION == 3 && EIGEN_MAJOR_VERSION == 4  // whose internals these are
+
+// Kernels of Eigen for a matrix times a vector and for triangular matrices. They are in one file, too: of
+// several copies the linker would take one, which may be of a file that is not optimised for speed.
+#define ARCSLIP_MATRIX_VECTOR(keyword, Scalar, left, right)                                            \
+  keyword template struct Eigen::internal::general_matrix_vector_product<                              \
+      Eigen::Index, Scalar, Eigen::internal::const_blas_data_mapper<Scalar, Eigen::Index, left>, left, \
+      false, Scalar, Eigen::internal::const_blas_data_mapper<Scalar, Eigen::Index, right>, false>;
+#define ARCSLIP_TRIANGULAR(keyword, part, order)                                                 \
+  keyword template struct Eigen::internal::triangular_solve_vector<double, double, Eigen::Index, \
+                                                                   Eigen::OnTheLeft, part, false, order>;
+#define ARCSLIP_VECTOR_KERNELS(keyword)                                                  \
+  ARCSLIP_MATRIX_VECTOR(keyword, double, Eigen::RowMajor, Eigen::ColMajor)               \
+  ARCSLIP_MATRIX_VECTOR(keyword, double, Eigen::ColMajor, Eigen::RowMajor)               \
+  ARCSLIP_MATRIX_VECTOR(keyword, double, Eigen::ColMajor, Eigen::ColMajor)               \
+  ARCSLIP_MATRIX_VECTOR(keyword, std::complex<double>, Eigen::RowMajor, Eigen::ColMajor) \
+  ARCSLIP_TRIANGULAR(keyword, Eigen::Lower | Eigen::UnitDiag, Eigen::ColMajor)           \
+  ARCSLIP_TRIANGULAR(keyword, Eigen::Upper, Eigen::ColMajor)                             \
+  ARCSLIP_TRIANGULAR(keyword, Eigen::Upper | Eigen::UnitDiag, Eigen::RowMajor)           \
+  ARCSLIP_TRIANGULAR(keyword, Eigen::Lower, Eigen::RowMajor)
+ARCSLIP_VECTOR_KERNELS(extern)
+
+#ifndef ARCSLIP_PRODUCTS_OF_EIGEN
 
 namespace Eigen::internal {
 
@@ -112,5 +134,7 @@ struct generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, GemmProduct> {
 };
 
 }  // namespace Eigen::internal
+
+#endif
 
 #endif

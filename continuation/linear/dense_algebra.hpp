@@ -1,5 +1,5 @@
 #pragma once
-// Decompositions of dense matrices by Eigen, compiled once, in one file.
+// Decompositions of dense matrices by Eigen, compiled once.
 //
 // A decomposition that does not converge returns empty results. Matrices without rows are allowed.
 
@@ -33,6 +33,9 @@ class LU {
   Scalar pivot(Eigen::Index i) const;  // of U
   double permutation_sign() const;     // det P
   Scalar determinant() const;
+  double reciprocal_condition() const;        // in the norm of columns, estimated
+  const Matrix& factors() const;              // L, whose diagonal is 1, below U
+  const Eigen::VectorXi& row_places() const;  // row i of A is row row_places()[i] of P A
 
  private:
   struct Decomposition;

@@ -1,8 +1,7 @@
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/small_lu.hpp>
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +35,7 @@ class DenseLU final : public LinearSolver {
     const Eigen::Index n = J->rows(), m = borders.width();
     if (matrix_.rows() != n + m) {
       matrix_.resize(n + m, n + m);
-      if (n + m > largest_small_lu) lu_ = Eigen::PartialPivLU<Matrix>(n + m);
+      if (n + m > largest_small_lu) lu_ = LU<double>(n + m);
       order_.resize(n + m);
       work_.resize(n + m);
     }
@@ -48,9 +47,9 @@ class DenseLU final : public LinearSolver {
     if (n + m <= largest_small_lu) {
       factorize_small(matrix_, order_);
     } else {
-      lu_.compute(matrix_);
-      matrix_ = lu_.matrixLU();
-      for (Eigen::Index i = 0; i < n + m; ++i) order_[lu_.permutationP().indices()[i]] = static_cast<int>(i);
+      lu_.factorize(matrix_);
+      matrix_ = lu_.factors();
+      for (Eigen::Index i = 0; i < n + m; ++i) order_[lu_.row_places()[i]] = static_cast<int>(i);
     }
     double sign = sign_of_permutation();
     const auto pivots = matrix_.diagonal();
@@ -124,9 +123,9 @@ class DenseLU final : public LinearSolver {
     return factor > 0 && std::isfinite(factor) ? factor : 1;
   }
 
-  Matrix matrix_;                      // L and U
-  Eigen::PartialPivLU<Matrix> lu_{0};  // of large matrices
-  Eigen::VectorXi order_;              // row i of L U is equation order_[i]
+  Matrix matrix_;          // L and U
+  LU<double> lu_;          // of large matrices
+  Eigen::VectorXi order_;  // row i of L U is equation order_[i]
   Eigen::VectorXi left_;
   mutable Vector work_;
   Vector rows_, columns_;  // factors of the last equations and of the last unknowns

@@ -1,5 +1,6 @@
 #include <arcslip/continuation/tracing/corrector.hpp>
 
+#include <arcslip/continuation/linear/finite.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 
 #include <algorithm>
@@ -104,7 +105,7 @@ bool Corrector::evaluate(const Vector& v, Needs needs) {
                std::to_string(n) + " unknowns";
     return false;
   }
-  return evaluator_->residual().allFinite();
+  return all_finite(evaluator_->residual());
 }
 
 bool Corrector::factorize(const Vector& v, const Vector& row) {
@@ -116,7 +117,7 @@ bool Corrector::factorize(const Vector& v, const Vector& row) {
     failure_ = thrown.what();
     return false;
   }
-  if (!F_p_.allFinite()) {
+  if (!all_finite(F_p_)) {
     failure_ = "dF/dp is not finite";
     return false;
   }

@@ -1,5 +1,7 @@
 #include <arcslip/hbm/mode.hpp>
 
+#include <arcslip/continuation/linear/finite.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -119,7 +121,7 @@ Evaluated ModeEvaluator::move_to(continuation::In u, continuation::In p, Needs n
   R_[n_] = ratio_ * range_.of(x_) - 1;
   R_[n_ + 1] = x_[phase_];
   R_[n_ + 2] = 0.5 * (u.head(n_).squaredNorm() - 1);
-  if (!R_.allFinite()) return Evaluated::failed;
+  if (!continuation::all_finite(R_)) return Evaluated::failed;
   if (needs == Needs::jacobian) differentiate(u.head(n_));
   return Evaluated::ok;
 }

@@ -1,5 +1,7 @@
 #include <arcslip/hbm/problem.hpp>
 
+#include <arcslip/continuation/linear/finite.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -50,7 +52,7 @@ Evaluated HbmEvaluator::move_to(continuation::In u, continuation::In p, Needs ne
   const bool jacobian = needs == Needs::jacobian;
   if (!jacobian && !assembled_) assemble();
   if (!(p[model::frequency] > 0)) return Evaluated::outside_domain;
-  if (!u.allFinite() || !p.allFinite()) return Evaluated::failed;
+  if (!continuation::all_finite(u) || !continuation::all_finite(p)) return Evaluated::failed;
   u_ = u;
   force_factor_ = p[p.size() - 1];
   if (!stiffness_.move_to(p)) return Evaluated::outside_domain;
@@ -59,7 +61,7 @@ Evaluated HbmEvaluator::move_to(continuation::In u, continuation::In p, Needs ne
   stiffness_.residual(u_, force_factor_, R_);
   move_all(u_, p, jacobian);
   for (const Part& part : parts_) part.map.add(part.element->force(), R_);
-  return R_.allFinite() ? Evaluated::ok : Evaluated::failed;
+  return continuation::all_finite(R_) ? Evaluated::ok : Evaluated::failed;
 }
 
 void HbmEvaluator::move_all(const continuation::In& u, const continuation::In& p, bool jacobian) {
@@ -83,7 +85,7 @@ Evaluated HbmEvaluator::test_piece(continuation::In u, continuation::In p, std::
                                    continuation::PieceTest test, bool& inside) {
   if (!assembled_) assemble();
   if (!(p[model::frequency] > 0)) return Evaluated::outside_domain;
-  if (!u.allFinite() || !p.allFinite()) return Evaluated::failed;
+  if (!continuation::all_finite(u) || !continuation::all_finite(p)) return Evaluated::failed;
   inside = true;
   if (piece != tested_piece_) {  // not known which of its parts are in it
     move_all(u, p, false);

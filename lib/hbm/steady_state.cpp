@@ -1,8 +1,7 @@
 #include <arcslip/hbm/problem.hpp>
 
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +48,11 @@ Vector stuck_response(const HbmProblem& problem, const Vector& p) {
   const Vector rest = Vector::Zero(problem.size());
   if (at->move_to(rest, p, Needs::jacobian) != Evaluated::ok)
     return Vector::Constant(rest.size(), std::nan(""));
-  return -std::get<Eigen::MatrixXd>(at->jacobian()).partialPivLu().solve(at->residual());
+  continuation::LU<double> lu(rest.size());
+  lu.factorize(std::get<Eigen::MatrixXd>(at->jacobian()));
+  Vector response(rest.size());
+  lu.solve(at->residual(), response);
+  return -response;
 }
 
 // The ramp from the largest part of the excitation at which Newton's method converges.

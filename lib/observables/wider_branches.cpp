@@ -2,8 +2,6 @@
 
 #include <arcslip/continuation/events/root.hpp>
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,8 +11,6 @@ namespace arcslip::observables {
 using continuation::Vector;
 
 namespace {
-
-using Factors = Eigen::PartialPivLU<Eigen::MatrixXd>;
 
 constexpr std::size_t points_around = 12;   // points beside an event in which its branch point is looked for
 constexpr double absent = 1e-6;             // of a motion: the harmonics that it lacks
@@ -57,13 +53,14 @@ std::vector<int> lacking(const elements::Harmonics& wide, const elements::Harmon
 }
 
 // The singular vectors of the smallest singular value, by inverse iteration.
-void smallest(const Factors& J, Vector& left, Vector& right) {
-  right.resize(J.rows());
+void smallest(const continuation::LU<double>& J, Vector& left, Vector& right) {
   for (Eigen::Index i = 0; i < right.size(); ++i) right[i] = std::sin(0.7 * static_cast<double>(i * i) + 0.3);
   right.normalize();
   for (int k = 0; k < sweeps; ++k) {
-    left = J.transpose().solve(right).normalized();
-    right = J.solve(left).normalized();
+    J.solve_transposed(right, left);
+    left.normalize();
+    J.solve(left, right);
+    right.normalize();
   }
 }
 
@@ -114,9 +111,9 @@ bool WiderBranchPoints::move_to(const Vector& v) {
 // Of det J_XX; 0: not known.
 int WiderBranchPoints::sign_at(const Vector& v) {
   if (!move_to(v)) return 0;
-  const Factors lu(J_);
-  int sign = static_cast<int>(lu.permutationP().determinant());
-  for (const double pivot : lu.matrixLU().diagonal()) sign *= pivot > 0 ? 1 : (pivot < 0 ? -1 : 0);
+  lu_.factorize(J_);
+  int sign = static_cast<int>(lu_.permutation_sign());
+  for (Eigen::Index i = 0; i < J_.rows(); ++i) sign *= lu_.pivot(i) > 0 ? 1 : (lu_.pivot(i) < 0 ? -1 : 0);
   return sign;
 }
 
@@ -161,22 +158,28 @@ std::optional<HalfBranch> WiderBranchPoints::refine(const Vector& from, const Ve
   };
   double a = 0, b = 1;
   int sign_a = sign_at(from);
-  Vector left, right;
+  const auto size = static_cast<Eigen::Index>(added_.size());
+  Vector left(size), right(size), solution(size);
   // 1/(right . J_XX^-1 left): of the size of the smallest singular value, and zero with it.
   const auto value = [&](double share) {
-    return place(share) ? 1 / right.dot(Factors(J_).solve(left)) : std::nan("");
+    if (!place(share)) return std::nan("");
+    lu_.factorize(J_);
+    lu_.solve(left, solution);
+    return 1 / right.dot(solution);
   };
   for (int k = 0; k < bisections; ++k) {
     if (!place(0.5 * (a + b))) break;
-    smallest(Factors(J_), left, right);
+    lu_.factorize(J_);
+    smallest(lu_, left, right);
     const double at_a = value(a), at_b = value(b);
     if (at_a * at_b < 0) {
       const auto root = continuation::find_root(value, a, at_a, b, at_b, resolved_step);
       const double least = std::min(std::abs(root.f_lower), std::abs(root.f_upper));
       if (least <= continuous * std::max(std::abs(at_a), std::abs(at_b)) && place(root.x)) {
-        smallest(Factors(J_), left, right);
-        const double size = J_.norm();
-        if (Factors(J_ + size * left * right.transpose()).rcond() < singular) {
+        lu_.factorize(J_);
+        smallest(lu_, left, right);
+        lu_.factorize(J_ + J_.norm() * left * right.transpose());
+        if (lu_.reciprocal_condition() < singular) {
           why = "several branches cross there at once, as in symmetric structures";
           return {};
         }

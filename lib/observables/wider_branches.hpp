@@ -13,6 +13,7 @@
 // regular, and phi, J_XX phi = 0, is the tangent of the branch that leaves. Its two halves are one motion and
 // its image by that shift.
 
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/tracing/corrector.hpp>
 #include <arcslip/hbm/problem.hpp>
 
@@ -74,8 +75,9 @@ class WiderBranchPoints {
 
   std::shared_ptr<const hbm::HbmProblem> narrow_, wide_;
   std::unique_ptr<hbm::HbmEvaluator> at_;
-  std::vector<int> added_;  // unknowns of the harmonics X
-  Matrix J_;                // J_XX
+  std::vector<int> added_;       // unknowns of the harmonics X
+  Matrix J_;                     // J_XX
+  continuation::LU<double> lu_;  // of it
   Vector p_, u_;
   std::vector<Vector> found_;
 };

@@ -2,8 +2,6 @@
 
 #include <arcslip/time/floquet.hpp>
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -2,9 +2,11 @@
 #include "catch.hpp"
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/continuation/linear/finite.hpp>
 
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 
 namespace {
@@ -158,4 +160,24 @@ TEST_CASE("what does not converge is empty") {
   const Matrix nothing = Matrix::Constant(3, 3, std::nan(""));
   CHECK(eigenvalues(nothing).size() == 0);
   CHECK(modes(nothing).values.size() == 0);
+}
+
+TEST_CASE("a value that is not finite is found at each place of vectors of each size") {
+  constexpr double largest = std::numeric_limits<double>::max(),
+                   infinity = std::numeric_limits<double>::infinity();
+  for (int n = 0; n <= 19; ++n) {
+    CAPTURE(n);
+    Eigen::VectorXd x = Eigen::VectorXd::Constant(n, largest);
+    CHECK(all_finite(x));
+    CHECK(all_finite(-x));
+    for (int i = 0; i < n; ++i)
+      for (const double value : {infinity, -infinity, std::nan("")}) {
+        CAPTURE(i, value);
+        x[i] = value;
+        CHECK_FALSE(all_finite(x));
+        CHECK(all_finite(x.head(i)));
+        CHECK(all_finite(x.tail(n - 1 - i)));
+        x[i] = largest;
+      }
+  }
 }
