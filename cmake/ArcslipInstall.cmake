@@ -10,3 +10,6 @@ install(FILES ${PROJECT_BINARY_DIR}/arcslipConfig.cmake ${PROJECT_BINARY_DIR}/ar
               ${PROJECT_SOURCE_DIR}/cmake/FindSuiteSparse.cmake ${PROJECT_SOURCE_DIR}/cmake/FindMatIO.cmake
         DESTINATION ${package_folder})
 install(EXPORT arcslip NAMESPACE arcslip:: FILE arcslipTargets.cmake DESTINATION ${package_folder})
+install(CODE "set(BUILD \"${PROJECT_BINARY_DIR}\")
+set(PLACE \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")
+include(\"${PROJECT_SOURCE_DIR}/cmake/install_headers.cmake\")")

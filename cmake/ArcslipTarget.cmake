@@ -1,4 +1,4 @@
-# How every library and program of Arcslip is compiled, and how a library shows its headers.
+# How every library and program of Arcslip is compiled, and where a library finds its headers.
 
 include(ArcslipFlags)
 
@@ -45,15 +45,15 @@ function(arcslip_batch target name size)
   endforeach()
 endfunction()
 
-# arcslip_library(NAME ROOMS room... [LIGHT room, folder or file...] [HEAVY file...] [ALONE file...] FILES file... [PUBLIC library...] [PRIVATE library...])
-# makes arcslip_NAME (arcslip::NAME). ROOMS are pairs "link=folder": the folder is seen as <arcslip/link/...>.
-# FILES begin with the link. The headers among them are public and get installed, as is NAME.hpp next to the CMakeLists.txt,
-# the library's umbrella <arcslip/NAME.hpp>; a header that is not listed is private. PUBLIC and PRIVATE are what it is linked to.
+# arcslip_library(NAME ROOMS room... [LIGHT room, folder or file...] [HEAVY file...] [ALONE file...] SOURCES file... [PUBLIC library...] [PRIVATE library...])
+# makes arcslip_NAME (arcslip::NAME). ROOMS are pairs "link=folder": the folder is seen as <arcslip/link/...>. SOURCES begin
+# with the link. NAME.hpp next to the CMakeLists.txt is the library's umbrella <arcslip/NAME.hpp>: it and all that it
+# includes, directly or through others, is public and gets installed. PUBLIC and PRIVATE are what the library is linked to.
 # LIGHT is what takes little of the time of a run, which is compiled with -O1 in a third of the time, but for the files of
 # HEAVY. ALONE is what is in no batch: a file that takes long, and one in whose loops GCC inlines less in a large unit.
 # Each library has a root of links of its own, so that an include of a library that is not linked does not compile.
 function(arcslip_library name)
-  cmake_parse_arguments(arg "" "" "ROOMS;LIGHT;HEAVY;ALONE;FILES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "ROOMS;LIGHT;HEAVY;ALONE;SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target arcslip_${name})
   set(root ${PROJECT_BINARY_DIR}/include/${name})
   file(MAKE_DIRECTORY ${root}/arcslip)
@@ -64,28 +64,24 @@ function(arcslip_library name)
     file(CREATE_LINK ${folder_of_${link}} ${root}/arcslip/${link} SYMBOLIC)
   endforeach()
   configure_file(${name}.hpp ${root}/arcslip/${name}.hpp COPYONLY)  # a link to a file would be installed as one
-  set(headers ${root}/arcslip/${name}.hpp)
-  foreach(file IN LISTS arg_FILES)
+  foreach(file IN LISTS arg_SOURCES)
     string(REGEX MATCH "^[^/]+" link ${file})
     if(NOT DEFINED folder_of_${link})
       message(FATAL_ERROR "${file} of library ${name} is in none of its rooms: ${arg_ROOMS}")
-    elseif(file MATCHES "\\.hpp$")
-      list(APPEND headers ${root}/arcslip/${file})
+    endif()
+    string(REGEX REPLACE "^[^/]+" "${folder_of_${link}}" path ${file})
+    string(REGEX REPLACE "/[^/]+$" "" folder ${file})
+    list(APPEND known ${link} ${folder} ${file})
+    set(kind heavy)
+    if(NOT file IN_LIST arg_HEAVY AND (link IN_LIST arg_LIGHT OR folder IN_LIST arg_LIGHT OR file IN_LIST arg_LIGHT))
+      set(kind light)
+    endif()
+    if(file IN_LIST arg_ALONE)
+      set_source_files_properties(${path} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      list(APPEND ${kind}_alone ${path})
     else()
-      string(REGEX REPLACE "^[^/]+" "${folder_of_${link}}" path ${file})
-      string(REGEX REPLACE "/[^/]+$" "" folder ${file})
-      list(APPEND known ${link} ${folder} ${file})
-      set(kind heavy)
-      if(NOT file IN_LIST arg_HEAVY AND (link IN_LIST arg_LIGHT OR folder IN_LIST arg_LIGHT OR file IN_LIST arg_LIGHT))
-        set(kind light)
-      endif()
-      if(file IN_LIST arg_ALONE)
-        set_source_files_properties(${path} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-        list(APPEND ${kind}_alone ${path})
-      else()
-        list(APPEND ${kind}_links ${link})
-        list(APPEND ${kind}_${link} ${path})
-      endif()
+      list(APPEND ${kind}_links ${link})
+      list(APPEND ${kind}_${link} ${path})
     endif()
   endforeach()
   foreach(entry IN LISTS arg_LIGHT arg_HEAVY arg_ALONE)
@@ -121,7 +117,7 @@ function(arcslip_library name)
   # Nothing asks for the macro that CMake defines in a shared library, and precompiled headers serve several.
   set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "" EXPORT_NAME ${name}
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${root} FILES ${headers})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_options(${target} PRIVATE ${arcslip_light})
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   target_precompile_headers(${target} REUSE_FROM arcslip_headers_light)
@@ -134,6 +130,5 @@ function(arcslip_library name)
   endif()
   install(TARGETS ${target} EXPORT arcslip
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-          FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endfunction()

@@ -1,21 +1,51 @@
 #pragma once
 // From a scene to responses: scenes, studies with their results and writers, models, laws of force, and the
-// functions that studies call.
+// functions that studies call. What it includes, directly or through others, is what is installed.
 
 #include <arcslip/continuation.hpp>
+#include <arcslip/elements/contact_2d.hpp>
+#include <arcslip/elements/contact_3d.hpp>
+#include <arcslip/elements/iwan.hpp>
+#include <arcslip/elements/jenkins.hpp>
 #include <arcslip/elements/law.hpp>
+#include <arcslip/elements/rate_law.hpp>
 #include <arcslip/elements/sampled_law.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/model/model.hpp>
+#include <arcslip/model/reduced_scene.hpp>
+#include <arcslip/observables/accuracy.hpp>
+#include <arcslip/observables/bifurcation_curve.hpp>
+#include <arcslip/observables/bifurcations.hpp>
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/observables/frequency_sweep.hpp>
 #include <arcslip/observables/histories.hpp>
 #include <arcslip/observables/nonlinear_modes.hpp>
 #include <arcslip/observables/over_parameter.hpp>
+#include <arcslip/observables/phase_resonance.hpp>
+#include <arcslip/observables/prepare.hpp>
+#include <arcslip/observables/quantities.hpp>
 #include <arcslip/observables/responses_at.hpp>
+#include <arcslip/observables/shooting_response.hpp>
+#include <arcslip/observables/special_curve.hpp>
 #include <arcslip/observables/time_study.hpp>
+#include <arcslip/output/atomic_file.hpp>
+#include <arcslip/output/figures.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/results/table_writer.hpp>
+#include <arcslip/results/text.hpp>
+#include <arcslip/results/version.hpp>
+#include <arcslip/scene/combinations.hpp>
+#include <arcslip/scene/json_schema.hpp>
+#include <arcslip/scene/patch.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/scene/scene_file.hpp>
+#include <arcslip/structure/reduction.hpp>
 #include <arcslip/studies/catalogue.hpp>
+#include <arcslip/studies/columns.hpp>
+#include <arcslip/studies/figures.hpp>
+#include <arcslip/studies/order_selection.hpp>
+#include <arcslip/studies/study_of.hpp>
+#include <arcslip/studies/units.hpp>
+#include <arcslip/time/shooting.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 // Optimality certificate: first-order conditions, curvature and tolerance ranges of the optimum of V, the
-// amplitude or the criterion over several cases (cases.hpp).
+// amplitude or the criterion over several cases (load_cases.hpp).
 
 #include <arcslip/optimize/search/load_cases.hpp>
 

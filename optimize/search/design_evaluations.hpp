@@ -1,5 +1,5 @@
 #pragma once
-// The design evaluations of a search: V (cases.hpp) at each, the best so far, progress and interruption.
+// The design evaluations of a search: V (load_cases.hpp) at each, the best so far, progress and interruption.
 // Not installed.
 
 #include <arcslip/optimize/search/formulation.hpp>

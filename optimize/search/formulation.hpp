@@ -1,7 +1,7 @@
 #pragma once
 // The criterion and the limits as a problem of NLopt. Not installed.
 //
-//   smooth     objective ln V/V_0 (cases.hpp), with the gradient of a highest peak
+//   smooth     objective ln V/V_0 (load_cases.hpp), with the gradient of a highest peak
 //   epigraph   levels t_g for groups g of cases, constraints ln w_c A_ck/V_0 <= t_g for the peaks k
 //
 // In both forms with a constraint for each limit on an observable at each peak of each case, and
