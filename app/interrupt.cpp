@@ -31,6 +31,7 @@ void watch(int signal) {
 void watch_signals() {
   watch(SIGINT);
   watch(SIGTERM);
+  watch(SIGHUP);  // the terminal was closed
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }

@@ -2,8 +2,8 @@
 
 namespace arcslip::app {
 
-/// Installs the signal handlers: the first Ctrl-C (SIGINT) or SIGTERM requests an end and the second one ends
-/// the program; a closed reader of standard output is a write error (EPIPE), not a signal.
+/// Installs the signal handlers: the first Ctrl-C (SIGINT), SIGTERM or SIGHUP requests an end and the second
+/// one ends the program; a closed reader of standard output is a write error (EPIPE), not a signal.
 void watch_signals();
 
 /// Whether an end was requested.

@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <new>
 #include <ostream>
 #include <system_error>
 
@@ -38,7 +39,7 @@ std::string beside(const std::string& file, const std::string& part) {
   return path.string() + "." + part + extension;
 }
 
-/// Whether a file starts like a table of results. Other files of that name are left alone.
+/// Whether a file starts like a table of results.
 bool is_table(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
@@ -47,28 +48,11 @@ bool is_table(const std::string& path) {
   return std::getline(file, first, ',') && first == "study";
 }
 
-/// The study in the folder that a figure of this name belongs to: among the studies with files there, the one
-/// whose name is the longest prefix; "" if there is none.
-std::string owner(const std::string& folder, std::string name) {
-  std::error_code ignored;
-  while (!name.empty() && !std::filesystem::exists(StudyFiles{folder, name}.path(".scene.json"), ignored)) {
-    const std::size_t end = name.rfind('_');
-    name.resize(end == std::string::npos ? 0 : end);
-  }
-  return name;
-}
-
-/// Removes figures of a study left by an earlier run and not drawn by this one.
-void remove_other_figures(const StudyFiles& files, const std::vector<std::string>& drawn) {
-  std::error_code error;
-  std::vector<std::string> others;
-  for (const auto& entry : std::filesystem::directory_iterator(files.folder, error)) {
-    const std::string name = entry.path().stem().string();
-    if (entry.path().extension() == ".gp" && std::find(drawn.begin(), drawn.end(), name) == drawn.end() &&
-        owner(files.folder, name) == files.name)
-      others.push_back(name);
-  }
-  for (const std::string& name : others) output::remove_figures(files.folder, name);
+/// Device and number of a file, by whatever name.
+std::pair<dev_t, ino_t> file_of(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 ? std::pair(status.st_dev, status.st_ino)
+                                            : std::pair<dev_t, ino_t>();
 }
 
 }  // namespace
@@ -88,27 +72,6 @@ std::vector<StudyFiles> study_files(const std::string& folder, std::span<const s
     all.push_back({folder, name});
   }
   return all;
-}
-
-ResultsFolder::ResultsFolder(const std::string& folder) : descriptor_(-1) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    const std::string cause = error ? error.message() : "it is a file";
-    throw UsageError("cannot create the folder " + folder + ": " + cause + " (choose another with --out)");
-  }
-  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  // File systems without locks are accepted.
-  if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(descriptor_);
-    throw UsageError("another run is writing to the folder " + folder +
-                     ": wait until it ends, or choose another folder with --out");
-  }
-  output::clear_temporaries(folder);
-}
-
-ResultsFolder::~ResultsFolder() {
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void add_places(const StudyFiles& files, const std::string& study, std::vector<OutputPath>& places) {
@@ -145,21 +108,29 @@ std::vector<File> csv_files(const std::string& path, std::span<const results::Sc
   }
   files.push_back({beside(path, "summary"),
                    [](std::ostream& out) { return std::make_unique<results::CsvSummary>(out); }});
-  for (const char* part : {"events", "cases"})
-    if (std::find(keys.begin(), keys.end(), part) == keys.end() && is_table(beside(path, part)))
-      files.push_back({beside(path, part), nullptr});
   return files;
+}
+
+std::vector<std::string> older_tables(const std::string& path, std::span<const results::Schema> schemas) {
+  std::vector<std::string> older;
+  const std::vector<std::string> keys = results::table_keys(schemas);
+  for (const char* part : {"events", "cases"})
+    if (!may_wait(path) && std::find(keys.begin(), keys.end(), part) == keys.end() &&
+        is_table(beside(path, part)))
+      older.push_back(beside(path, part));
+  return older;
 }
 
 void write(const File& file, const results::Results& results, std::ostream& out) {
   results::replay(results, *file.sink(out));
 }
 
-void check_places(const std::vector<OutputPath>& places, const std::string& scene_file) {
+void check_places(const std::vector<OutputPath>& places, const std::vector<std::string>& sources) {
   std::map<std::string, std::string> by_path;              // what goes there
   std::map<std::pair<dev_t, ino_t>, std::string> by_file;  // the same, of what is there, by whatever name
   struct stat status {};
-  if (::stat(scene_file.c_str(), &status) == 0) by_file.emplace(std::pair(status.st_dev, status.st_ino), "");
+  for (const std::string& source : sources)
+    if (::stat(source.c_str(), &status) == 0) by_file.emplace(std::pair(status.st_dev, status.st_ino), "");
   if (::fstat(STDOUT_FILENO, &status) == 0 && S_ISREG(status.st_mode))
     by_file.emplace(std::pair(status.st_dev, status.st_ino), "standard output");
   for (const OutputPath& place : places) {
@@ -173,7 +144,9 @@ void check_places(const std::vector<OutputPath>& places, const std::string& scen
     const auto same = is_there ? by_file.emplace(file, place.what) : std::pair(by_file.end(), true);
     if (!same.second && same.first->second.empty()) {
       throw UsageError(results::visible(place.path) +
-                       " is the scene file itself: choose another path for the results");
+                       (file == file_of(sources.front())
+                            ? " is the scene file itself: choose another path for the results"
+                            : " is a file that the scene reads: choose another path for the results"));
     }
     if (!other.second || !same.second) {
       throw UsageError((other.second ? same.first->second : other.first->second) + " and " + place.what +
@@ -184,11 +157,6 @@ void check_places(const std::vector<OutputPath>& places, const std::string& scen
   }
 }
 
-void Writing::remove(const std::string& path) {
-  std::error_code ignored;
-  std::filesystem::remove(path, ignored);
-}
-
 bool Writing::attempt(const std::string& what, const std::function<void()>& write) {
   try {
     write();
@@ -196,6 +164,7 @@ bool Writing::attempt(const std::string& what, const std::function<void()>& writ
   } catch (const output::WriteError& error) {
     tell(error.what());
     (error.error() == EINTR ? stopped_ : failed_) = true;
+    ++failures_;
     misses(what);
     return false;
   }
@@ -224,26 +193,41 @@ std::vector<std::string> write_scene(const StudyFiles& files, const scene::Scene
   return is_written ? std::vector{path} : std::vector<std::string>();
 }
 
-std::vector<std::string> write_figures(const StudyFiles& files,
-                                       const std::vector<results::FigureData>& figures, Writing& writing) {
-  std::vector<std::string> paths;
-  std::vector<std::string> drawn, problems;
+namespace {
+
+std::string figure_name(const StudyFiles& files, const results::FigureData& data) {
+  return files.name + (data.name.empty() ? "" : "_" + data.name);
+}
+
+}  // namespace
+
+std::vector<std::string> figure_names(const StudyFiles& files,
+                                      const std::vector<results::FigureData>& figures) {
+  std::vector<std::string> names;
+  for (const results::FigureData& data : figures)
+    for (std::string& name : output::figure_files(data, figure_name(files, data)))
+      names.push_back(std::move(name));
+  return names;
+}
+
+DrawnFigures write_figures(const StudyFiles& files, const std::vector<results::FigureData>& figures,
+                           Writing& writing) {
+  DrawnFigures drawn;
   const std::string what = "the figures of " + results::visible(files.path(""));
-  for (const results::FigureData& data : figures) {
-    drawn.push_back(files.name + (data.name.empty() ? "" : "_" + data.name));
-    writing.attempt(what, [&] {
-      const output::Figures now = output::draw_figures(data, files.folder, drawn.back(), interrupted);
-      paths.insert(paths.end(), now.sources.begin(), now.sources.end());
-      paths.insert(paths.end(), now.images.begin(), now.images.end());
-      if (!now.problem.empty()) problems.push_back(now.problem);
-    });
-  }
-  if (!problems.empty()) {  // the others are alike
-    tell(problems.front());
-    writing.misses(what);
-  }
-  remove_other_figures(files, drawn);
-  return paths;
+  const auto draw = [&](const results::FigureData& data) {
+    try {
+      const output::Figures now =
+          output::draw_figures(data, files.folder, figure_name(files, data), interrupted);
+      drawn.paths.insert(drawn.paths.end(), now.sources.begin(), now.sources.end());
+      drawn.paths.insert(drawn.paths.end(), now.images.begin(), now.images.end());
+      if (drawn.problem.empty()) drawn.problem = now.problem;  // those of others are alike
+    } catch (const std::bad_alloc&) {
+      drawn.problem = "no figure was drawn: out of memory";
+    }
+  };
+  for (const results::FigureData& data : figures) writing.attempt(what, [&] { draw(data); });
+  if (!drawn.problem.empty()) writing.misses(what);
+  return drawn;
 }
 
 }  // namespace arcslip::app

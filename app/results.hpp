@@ -28,26 +28,12 @@ struct StudyFiles {
 /// Unique file names for each study.
 std::vector<StudyFiles> study_files(const std::string& folder, std::span<const scene::Study> studies);
 
-/// A folder locked for one run at a time: created with its parents and locked for the lifetime of this
-/// object; the lock does not outlive a killed program. Removes temporary files left by a killed run. Throws
-/// UsageError if it cannot be created or another run holds the lock.
-class ResultsFolder {
- public:
-  explicit ResultsFolder(const std::string& folder);
-  ResultsFolder(ResultsFolder&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-  ResultsFolder& operator=(ResultsFolder&&) = delete;
-  ~ResultsFolder();
-
- private:
-  int descriptor_;
-};
-
 /// An output path, and a description of what goes there.
 struct OutputPath {
   std::string what, path;
 };
 
-/// A file and the sink that writes it. Without a sink, the file of an earlier run is removed.
+/// A file and the sink that writes it.
 struct File {
   std::string path;
   std::function<std::unique_ptr<results::Sink>(std::ostream&)> sink;
@@ -59,6 +45,9 @@ File json_file(const std::string& path);
 /// table or "summary" inserted before the extension, unless `path` is standard output ("-"), a pipe or a
 /// device.
 std::vector<File> csv_files(const std::string& path, std::span<const results::Schema> schemas);
+
+/// Tables next to `path` from earlier results, which these have no counterpart of.
+std::vector<std::string> older_tables(const std::string& path, std::span<const results::Schema> schemas);
 
 /// Writes collected results.
 void write(const File& file, const results::Results& results, std::ostream& out);
@@ -72,19 +61,20 @@ bool may_wait(const std::string& place);
 /// Adds the paths of a study with files of its own.
 void add_places(const StudyFiles& files, const std::string& study, std::vector<OutputPath>& places);
 
-/// Throws UsageError if two of the paths are the same file, under whatever name, or one is the scene file or
-/// the file behind standard output; output::WriteError if one cannot be written.
-void check_places(const std::vector<OutputPath>& places, const std::string& scene_file);
+/// Throws UsageError if two of the paths are the same file, under whatever name, or one is a file that is
+/// read (the scene's, and those that it names) or the file behind standard output; output::WriteError if one
+/// cannot be written.
+void check_places(const std::vector<OutputPath>& places, const std::vector<std::string>& sources);
 
 /// Writes several outputs in turn: a failure is reported on standard error and does not affect the others.
 class Writing {
  public:
   /// Calls write(), which may throw output::WriteError. what: the output, for messages. Returns success.
   bool attempt(const std::string& what, const std::function<void()>& write);
-  /// Removes the file of an earlier run.
-  static void remove(const std::string& path);
   /// Records that `what` is missing, for a reason reported elsewhere.
   void misses(std::string what) { missing_.push_back(std::move(what)); }
+  /// The outputs that could not be written so far.
+  std::size_t failures() const { return failures_; }
   /// The missing outputs, as part of a sentence.
   std::string missing() const;
   /// The exit code; `otherwise` if everything was written.
@@ -92,15 +82,23 @@ class Writing {
 
  private:
   bool failed_ = false, stopped_ = false;
+  std::size_t failures_ = 0;
   std::vector<std::string> missing_;
 };
 
 /// Writes the resolved scene next to the results of its study. Returns its path, if written.
 std::vector<std::string> write_scene(const StudyFiles& files, const scene::Scene& scene, Writing& writing);
 
-/// Draws the figures of a study and removes those of an earlier run. Returns the paths of the files written;
-/// reports missing figures and the cause on standard error.
-std::vector<std::string> write_figures(const StudyFiles& files,
-                                       const std::vector<results::FigureData>& figures, Writing& writing);
+/// The names of all files that write_figures() may write.
+std::vector<std::string> figure_names(const StudyFiles& files,
+                                      const std::vector<results::FigureData>& figures);
+
+/// Figures that were drawn, and why others were not, in a sentence for the user.
+struct DrawnFigures {
+  std::vector<std::string> paths;
+  std::string problem;
+};
+DrawnFigures write_figures(const StudyFiles& files, const std::vector<results::FigureData>& figures,
+                           Writing& writing);
 
 }  // namespace arcslip::app

@@ -35,7 +35,7 @@ OpenFiles::OpenFiles(std::vector<File> files) {
 template <class Write>
 void OpenFiles::each(const Write& write) {
   for (Open& open : files_) {
-    if (open.failed || !open.file.sink) continue;
+    if (open.failed) continue;
     try {
       write(open);
     } catch (const output::WriteError& error) {
@@ -68,13 +68,15 @@ void OpenFiles::finish() {
   each([&](Open& open) { open.sink->finish(); });
 }
 
+std::vector<std::string> OpenFiles::paths() const {
+  std::vector<std::string> paths;
+  for (const Open& open : files_) paths.push_back(open.file.path);
+  return paths;
+}
+
 std::vector<std::string> OpenFiles::commit(Writing& writing) {
   std::vector<std::string> paths;
   for (Open& open : files_) {
-    if (!open.file.sink) {
-      Writing::remove(open.file.path);
-      continue;
-    }
     const bool is_written = writing.attempt(results::visible(open.file.path), [&] {
       if (open.failed) throw output::WriteError(*open.failed);
       open.target->commit();

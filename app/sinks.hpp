@@ -58,6 +58,7 @@ class OpenFiles : public results::Sink {
   void end(const results::End& end) override;
   void finish() override;
 
+  std::vector<std::string> paths() const;
   /// Returns the paths of the files written; `writing` reports the others.
   std::vector<std::string> commit(Writing& writing);
 

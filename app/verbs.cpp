@@ -5,6 +5,7 @@
 #include "progress.hpp"
 #include "resolve.hpp"
 #include "results.hpp"
+#include "results_folder.hpp"
 #include "sinks.hpp"
 #include "standard_output.hpp"
 
@@ -14,8 +15,10 @@
 #include <arcslip/results/progress.hpp>
 #include <arcslip/results/table_writer.hpp>
 #include <arcslip/results/text.hpp>
+#include <arcslip/results/version.hpp>
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/highest_harmonic.hpp>
+#include <arcslip/scene/manifest.hpp>
 #include <arcslip/studies/columns.hpp>
 
 #include <algorithm>
@@ -40,18 +43,20 @@ bool takes_standard_output(const CommandOptions& options) {
 }
 
 /// Checks that all results can be written, before anything is computed. Returns the locked output folder.
-std::optional<ResultsFolder> prepare_places(const CommandOptions& options,
+std::optional<ResultsFolder> prepare_places(const CommandOptions& options, const scene::Scene& scene,
                                             const std::vector<scene::Study>& studies,
                                             const std::vector<StudyFiles>& files) {
+  const std::vector<std::string> sources = sources_of(scene, options.scene);
   std::optional<ResultsFolder> folder;
   std::vector<OutputPath> places;
   if (!options.out.empty()) {
-    folder.emplace(options.out);
+    folder.emplace(options.out, sources);
+    places.push_back({"the manifest of the folder", folder->manifest_path()});
     for (std::size_t i = 0; i < studies.size(); ++i) add_places(files[i], studies[i].name, places);
   }
   if (!options.json.empty() && options.json != "-") places.push_back({"--json", options.json});
   if (!options.csv.empty()) add_csv_places("--csv", options.csv, places);
-  check_places(places, options.scene);
+  check_places(places, sources);
   return folder;
 }
 
@@ -136,6 +141,45 @@ std::vector<File> own_files(const StudyFiles& files, const results::Schema& sche
   return all;
 }
 
+/// Writes all files of a study to its folder: those that were open, the scene and the figures. Returns their
+/// paths.
+std::vector<std::string> write_set(ResultsFolder& folder, const StudyFiles& files, const scene::Scene& scene,
+                                   const results::Header& header, OpenFiles& open,
+                                   const std::vector<results::FigureData>& figures, Writing& writing) {
+  scene::FileSet set{files.name, header.program, header.scene_hash, false, {}};
+  std::vector<std::string> names = figure_names(files, figures);
+  const auto taken =
+      std::find_if(names.begin(), names.end(), [&](const auto& name) { return folder.is_source(name); });
+  const bool may_draw = taken == names.end();
+  const std::string what = "the figures of " + results::visible(files.path(""));
+  if (!may_draw) {
+    tell(what + " were not drawn: " + results::visible(*taken) + " is a file that the scene reads");
+    writing.misses(what);
+    names.clear();
+  }
+  for (const std::string& path : open.paths())
+    names.push_back(std::filesystem::path(path).filename().string());
+  names.push_back(std::filesystem::path(files.path(".scene.json")).filename().string());
+  for (std::string& name : names) set.files.push_back({std::move(name)});
+  const std::size_t missing = writing.failures();
+  writing.attempt("the manifest", [&] { folder.begin_set(set); });
+  std::vector<std::string> written = write_scene(files, scene, writing);
+  DrawnFigures drawn;
+  const std::vector<std::string> tables = open.commit(writing);
+  if (may_draw) drawn = write_figures(files, figures, writing);
+  for (const auto& paths : {tables, drawn.paths}) written.insert(written.end(), paths.begin(), paths.end());
+  std::vector<std::string> removed;
+  writing.attempt("the manifest",
+                  [&] { removed = folder.end_set(set.name, written, writing.failures() == missing); });
+  const bool images = std::any_of(removed.begin(), removed.end(), [](const std::string& name) {
+    return name.ends_with(".svg") || name.ends_with(".png");
+  });
+  if (!drawn.problem.empty())
+    tell(drawn.problem +
+         (images ? "; those of an earlier run were removed, since they show other data" : ""));
+  return written;
+}
+
 bool are_of_one_list(std::span<const results::Schema> schemas) {
   return std::all_of(schemas.begin(), schemas.end(),
                      [&](const results::Schema& schema) { return schema.list == schemas.front().list; });
@@ -153,7 +197,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
   check_combinations(options, studies);
   tell_beyond_reduction(scene, studies);
   const std::vector<StudyFiles> files = study_files(options.out, studies);
-  const std::optional<ResultsFolder> held = prepare_places(options, studies, files);
+  std::optional<ResultsFolder> held = prepare_places(options, scene, studies, files);
 
   const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -204,14 +248,16 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
     }
     for (const std::string& sentence : remarks.doubts) tell(sentence);
     for (const std::string& sentence : remarks.others) tell(sentence);
-    if (!options.out.empty()) {
-      for (const auto& paths : {write_scene(files[i], scene, writing), own.commit(writing),
-                                write_figures(files[i], figures, writing)})
-        for (const std::string& path : paths) places += results::visible(path) + "\n";
+    if (held) {
+      for (const std::string& path : write_set(*held, files[i], scene, header, own, figures, writing))
+        places += results::visible(path) + "\n";
     }
   }
   StandardOutput screen;
   if (any_begun) {
+    if (!options.csv.empty() && options.csv != "-")
+      for (const std::string& path : older_tables(options.csv, schemas))
+        tell(results::visible(path) + " is left from earlier results: these have no such table");
     all.finish();
     open.commit(writing);
     for (const File& each : in_the_end) {
@@ -249,19 +295,6 @@ ExitCode check(const scene::Scene& scene, const CommandOptions& options) {
   return ExitCode::done;
 }
 
-/// Throws if an output would replace a file that the scene names.
-void check_sources(const scene::Scene& scene, const std::filesystem::path& folder,
-                   const std::vector<OutputPath>& places) {
-  scene::Scene beside = scene::from_folder(scene, folder.string());
-  for (const scene::NamedFile* source : scene::files(beside))
-    for (const OutputPath& place : places) {
-      std::error_code none;
-      if (std::filesystem::equivalent(folder / source->path, place.path, none))
-        throw UsageError(results::visible(place.path) +
-                         " is a file of the scene itself: choose another folder with --out");
-    }
-}
-
 /// The reduced structure as files, and the scene with it.
 ExitCode reduce(const scene::Scene& scene, const CommandOptions& options) {
   tell_beyond_reduction(scene, scene.studies);
@@ -271,20 +304,29 @@ ExitCode reduce(const scene::Scene& scene, const CommandOptions& options) {
           : std::filesystem::path(options.out);
   model::ReducedScene reduced = model::reduced_scene(scene, folder.string(), interrupted);
   reduced.files.emplace_back("reduced.json", std::move(reduced.scene));
-  const ResultsFolder held(folder.string());
-  std::vector<OutputPath> places;
-  for (const auto& [name, text] : reduced.files)
+  const std::vector<std::string> sources = sources_of(scene, options.scene);
+  ResultsFolder held(folder.string(), sources);
+  std::vector<OutputPath> places = {{"the manifest of the folder", held.manifest_path()}};
+  scene::FileSet set{"reduced", "arcslip " + std::string(results::version()), scene::hash(scene), false, {}};
+  for (const auto& [name, text] : reduced.files) {
     places.push_back({"the reduced structure", (folder / name).string()});
-  check_places(places, options.scene);
-  check_sources(scene, folder, places);
+    set.files.push_back({name});
+  }
+  check_places(places, sources);
+  places.erase(places.begin());
   Writing writing;
   std::ostringstream written;
+  std::vector<std::string> paths;
+  writing.attempt("the manifest", [&] { held.begin_set(set); });
   for (std::size_t i = 0; i < places.size(); ++i)
     if (writing.attempt(results::visible(places[i].path), [&] {
           output::write_file(
               places[i].path, [&](std::ostream& out) { out << reduced.files[i].second; }, interrupted);
-        }))
+        })) {
+      paths.push_back(places[i].path);
       written << results::visible(places[i].path) << '\n';
+    }
+  writing.attempt("the manifest", [&] { held.end_set(set.name, paths, paths.size() == places.size()); });
   if (!options.quiet) {
     StandardOutput screen;
     screen.write_lines([&](std::ostream& out) { out << written.str(); });
@@ -320,6 +362,7 @@ ExitCode run_scene(scene::Scene scene, CommandOptions options) {
 
 ExitCode execute(const CommandOptions& options, const scene::Catalogue& catalogue) {
   scene::Scene scene = resolve(options, catalogue);
+  for (const std::string& doubt : scene::manifest_doubts(scene, options.scene).changed) tell(doubt);
   if (const std::string done = observables::prepare(scene, interrupted); !done.empty() && !options.quiet)
     tell(done);
   if (options.verb == "run") return run_scene(std::move(scene), options);

@@ -38,6 +38,7 @@
 #include <arcslip/results/version.hpp>
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/json_schema.hpp>
+#include <arcslip/scene/manifest.hpp>
 #include <arcslip/scene/patch.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/scene_file.hpp>

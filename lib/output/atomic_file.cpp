@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -134,13 +135,20 @@ void AtomicFile::Target::open_temporary(mode_t mode) {
   const std::string folder = folder_of(final_name);
 #ifdef O_TMPFILE
   descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
-  if (descriptor >= 0 && ::access(unnamed_link(descriptor).c_str(), F_OK) == 0) return;
+  if (descriptor >= 0 && ::access(unnamed_link(descriptor).c_str(), F_OK) == 0) {
+    ::flock(descriptor, LOCK_SH);  // for clear_temporaries(): it has a name for a moment in commit()
+    return;
+  }
   if (descriptor >= 0)  // without /proc it could never be given a name
     ::close(std::exchange(descriptor, -1));
 #endif
   const auto [name, error] = unused_name(folder, [&](const std::string& candidate) {
     descriptor = ::open(candidate.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode);
-    return descriptor < 0 ? errno : 0;
+    if (descriptor < 0) return errno;
+    ::flock(descriptor, LOCK_SH);  // for clear_temporaries(), which may have removed it before that
+    if (struct stat status{}; ::fstat(descriptor, &status) == 0 && status.st_nlink > 0) return 0;
+    ::close(std::exchange(descriptor, -1));
+    return EEXIST;
   });
   if (error != 0) fail(path, error);
   temporary = name;
@@ -243,13 +251,19 @@ std::string written_file(const std::string& path) {
 }
 
 void clear_temporaries(const std::string& folder) {
-  static const std::regex left_over(R"(\.arcslip-[0-9]+-[0-9]+\.tmp|.*\.(svg|png)\.[0-9]+\.tmp)");
+  static const std::regex left_over(R"(\.arcslip-[0-9]+-[0-9]+\.tmp)");
   std::error_code error;
   std::vector<std::filesystem::path> paths;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error))
     if (std::regex_match(entry->path().filename().string(), left_over)) paths.push_back(entry->path());
-  for (const auto& path : paths) std::filesystem::remove(path, error);
+  for (const auto& path : paths) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (descriptor < 0) continue;
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0)  // its writer would hold a lock
+      std::filesystem::remove(path, error);
+    ::close(descriptor);
+  }
 }
 
 }  // namespace arcslip::output

@@ -60,8 +60,8 @@ void check_writable(const std::string& path);
 /// the same file give the same result, whether it exists or not.
 std::string written_file(const std::string& path);
 
-/// Removes temporary files of AtomicFile and of images left in a folder by killed writers. No other process
-/// may be writing to the folder.
+/// Removes temporary files of AtomicFile left in a folder by killed writers. Those of living ones, which hold
+/// a lock, stay.
 void clear_temporaries(const std::string& folder);
 
 }  // namespace arcslip::output

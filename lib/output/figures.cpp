@@ -44,26 +44,13 @@ std::chrono::milliseconds time_for(const FigureData& data, std::size_t figures) 
   return least_time + std::chrono::duration_cast<std::chrono::milliseconds>(points * figures * time_of_point);
 }
 
-/// The images, without their folder, drawn by an old script; none without a script.
-std::vector<std::string> images_of(const std::string& script) {
-  constexpr std::string_view begin = "set output '", end = "'.suffix";
-  std::vector<std::string> images;
-  std::ifstream file(script, std::ios::binary);
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with(begin) && line.ends_with(end)) {
-      const std::string image = line.substr(begin.size(), line.size() - begin.size() - end.size());
-      if (image == file_name(image))  // nothing outside of the folder
-        images.push_back(image);
-    }
-  }
-  return images;
+std::vector<std::string> images_of(const FigureData& data, const std::string& stem) {
+  return data.lines.empty() ? std::vector<std::string>() : image_names(data, stem);
 }
 
-/// Removes old figures, which must not accompany new data. Returns their number.
-int remove_images(const std::string& base, const std::vector<std::string>& images) {
-  int count = 0;
-  for (const std::string& image : images) count += std::remove((base + image).c_str()) == 0 ? 1 : 0;
-  return count;
+/// Of the images while gnuplot draws them.
+std::string temporary_suffix() {
+  return "." + std::to_string(::getpid()) + ".tmp";
 }
 
 std::string problem_of(const ProcessResult& result, const std::string& folder, const std::string& script,
@@ -73,6 +60,9 @@ std::string problem_of(const ProcessResult& result, const std::string& folder, c
            "after installing it, run gnuplot -d " +
            script + " in " + folder;
   }
+  if (result.end == ProcessEnd::not_started)
+    return "gnuplot cannot be started (" + result.text +
+           "); the data and the script were written: run gnuplot -d " + script + " in " + folder;
   std::string problem =
       "gnuplot could not draw the figures (exit code " + std::to_string(result.exit_code) + ")";
   if (result.end == ProcessEnd::out_of_time) {
@@ -104,33 +94,27 @@ std::string file_name(const std::string& name) {
   return result.empty() || result.front() == '-' ? "_" + result : result;
 }
 
-void remove_figures(const std::string& folder, const std::string& name) {
-  const std::string base = folder_prefix(folder), stem = file_name(name);
-  remove_images(base, images_of(base + stem + ".gp"));
-  remove_images(base, {stem + ".dat", stem + ".gp"});
+std::vector<std::string> figure_files(const FigureData& data, const std::string& name) {
+  const std::string stem = file_name(name);
+  std::vector<std::string> files = {stem + ".dat", stem + ".gp"};
+  for (const std::string& image : images_of(data, stem))
+    for (const char* extension : {".svg", ".png"})
+      files.insert(files.end(), {image + extension, image + extension + temporary_suffix()});
+  return files;
 }
 
 Figures draw_figures(const FigureData& data, const std::string& folder, const std::string& name,
                      const scene::StopRequest& stop) {
   const std::string stem = file_name(name);
   const std::string base = folder_prefix(folder);
-  const std::vector<std::string> images =
-      data.lines.empty() ? std::vector<std::string>() : image_names(data, stem);
+  const std::vector<std::string> images = images_of(data, stem);
 
   Figures result;
   result.sources = {base + stem + ".dat", base + stem + ".gp"};
-  std::vector<std::string> old = images_of(result.sources[1]);
-  for (const std::string& image : images) old.insert(old.end(), {image + ".svg", image + ".png"});
-  const int removed = remove_images(base, old);
   write_file(result.sources[0], [&](std::ostream& out) { write_figure_data(out, data); });
   write_file(result.sources[1], [&](std::ostream& out) { write_gnuplot_script(out, data, stem, images); });
-  const auto problem = [&](const std::string& what) {
-    result.problem = what + (removed > 0 && result.images.empty()
-                                 ? "; those of an earlier run were removed, since they show other data"
-                                 : "");
-  };
   if (images.empty()) {
-    problem("no figure was drawn: there are no points");
+    result.problem = "no figure was drawn: there are no points";
     return result;
   }
   const std::string interrupted =
@@ -138,12 +122,12 @@ Figures draw_figures(const FigureData& data, const std::string& folder, const st
       "written: run gnuplot -d " +
       stem + ".gp in " + folder;
   if (scene::is_asked(stop)) {
-    problem(interrupted);
+    result.problem = interrupted;
     return result;
   }
 
   // gnuplot writes to temporary names; complete images are renamed.
-  const std::string suffix = "." + std::to_string(::getpid()) + ".tmp";
+  const std::string suffix = temporary_suffix();
   const auto time = time_for(data, images.size());
   const ProcessResult run =
       run_program("gnuplot", {"-d", "-e", "suffix='" + suffix + "'", stem + ".gp"}, folder, {stop, time});
@@ -162,7 +146,8 @@ Figures draw_figures(const FigureData& data, const std::string& folder, const st
     }
   }
   if (!all_whole)
-    problem(run.end == ProcessEnd::stopped ? interrupted : problem_of(run, folder, stem + ".gp", time));
+    result.problem =
+        run.end == ProcessEnd::stopped ? interrupted : problem_of(run, folder, stem + ".gp", time);
   return result;
 }
 

@@ -18,13 +18,13 @@ struct Figures {
 /// Writes NAME.dat and NAME.gp to `folder`, and runs gnuplot to draw the figures of `data` as SVG and PNG.
 /// NAME consists of letters, digits, '.', '_' and '-'. If gnuplot is missing, fails, exceeds its time (a
 /// minute, plus 0.1 ms for each point of each figure) or `stop` is requested, `problem` reports it and the
-/// sources are written nevertheless. Images of an earlier run with this NAME are removed first. Throws
-/// WriteError if the sources cannot be written.
+/// sources are written nevertheless. Images of these names that are there stay where they cannot be drawn.
+/// Throws WriteError if the sources cannot be written.
 Figures draw_figures(const results::FigureData& data, const std::string& folder, const std::string& name,
                      const scene::StopRequest& stop = {});
 
-/// Removes the sources of this NAME in `folder` and their images, if present.
-void remove_figures(const std::string& folder, const std::string& name);
+/// The names of all files that draw_figures() may write to its folder, temporary ones among them.
+std::vector<std::string> figure_files(const results::FigureData& data, const std::string& name);
 
 /// A file name for any name: characters other than letters, digits, '_', '-' and an inner '.' become '_'.
 std::string file_name(const std::string& name);

@@ -90,8 +90,10 @@ class Pipe {
 
 }  // namespace
 
-ProcessResult run_program(const std::string& program, const std::vector<std::string>& arguments,
-                          const std::string& folder, const ProcessLimits& limits) {
+namespace {
+
+ProcessResult run(const std::string& program, const std::vector<std::string>& arguments,
+                  const std::string& folder, const ProcessLimits& limits) {
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -108,7 +110,7 @@ ProcessResult run_program(const std::string& program, const std::vector<std::str
     result.end = ProcessEnd::not_found;
     return result;
   }
-  if (error != 0) throw std::system_error(error, std::generic_category(), "cannot start " + program);
+  if (error != 0) throw std::system_error(error, std::generic_category());
   pipe.close_writing();
   const auto began = std::chrono::steady_clock::now();
   bool writes = true;
@@ -133,6 +135,17 @@ ProcessResult run_program(const std::string& program, const std::vector<std::str
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   result.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   return result;
+}
+
+}  // namespace
+
+ProcessResult run_program(const std::string& program, const std::vector<std::string>& arguments,
+                          const std::string& folder, const ProcessLimits& limits) {
+  try {
+    return run(program, arguments, folder, limits);
+  } catch (const std::system_error& error) {  // no pipe, no process, no program in this file
+    return {ProcessEnd::not_started, -1, 0, error.what()};
+  }
 }
 
 }  // namespace arcslip::output

@@ -12,6 +12,7 @@ namespace arcslip::output {
 enum class ProcessEnd {
   by_itself,
   not_found,    // no such program in PATH
+  not_started,  // the system cannot start it; text says why
   out_of_time,  // killed
   stopped,      // killed on request
 };
@@ -31,7 +32,7 @@ struct ProcessLimits {
 
 /// Runs a program from PATH, without a shell, in `folder`, with empty standard input, and waits for it, or
 /// kills it and its children at a limit. It runs in its own process group, so that a terminal's Ctrl-C does
-/// not reach it. Throws std::system_error if the system cannot start programs.
+/// not reach it.
 ProcessResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                           const std::string& folder, const ProcessLimits& limits = {});
 

@@ -1,6 +1,7 @@
 // A scene file, section by section, in the order of the format.
 #include <arcslip/scene/checks.hpp>
 #include <arcslip/scene/json_tree.hpp>
+#include <arcslip/scene/manifest.hpp>
 #include <arcslip/scene/natural.hpp>
 #include <arcslip/scene/patch.hpp>
 #include <arcslip/scene/read_parts.hpp>
@@ -300,8 +301,11 @@ Scene read_file(const std::string& path, const Catalogue& catalogue) {
 }
 
 Scene read_file(const std::string& path, const Catalogue& catalogue, const StopRequest& stop) {
-  return file::read_scene(file::read_tree(file::read_text(path, stop), stop), catalogue,
-                          {{std::filesystem::path(path).parent_path().string()}, stop});
+  Scene scene = file::read_scene(file::read_tree(file::read_text(path, stop), stop), catalogue,
+                                 {{std::filesystem::path(path).parent_path().string()}, stop});
+  const ManifestDoubts doubts = manifest_doubts(scene, path);
+  if (!doubts.interrupted.empty()) throw SceneError({{"", doubts.interrupted.front()}});
+  return scene;
 }
 
 void check(const Scene& scene) {

@@ -1,6 +1,7 @@
 // A scene as the tree of its file, with every default.
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/json_tree.hpp>
+#include <arcslip/scene/manifest.hpp>
 #include <arcslip/scene/matrix_file.hpp>
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -9,9 +10,7 @@
 #include <arcslip/scene/write_values.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 namespace arcslip::scene {
@@ -264,25 +263,19 @@ std::string write(const Scene& scene) {
 }
 
 std::string hash(const Scene& scene) {
-  std::uint64_t state = 0xcbf29ce484222325u;  // FNV-1a, 64 bits (Fowler, Noll, Vo)
-  const auto add = [&](const std::string& text) {
-    for (const char c : text) state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  };
+  ContentHash hash;
   Scene copy = scene;
   std::vector<std::shared_ptr<const std::string>> texts;
   for (NamedFile* file : files(copy)) {  // what they hold, wherever they are
     texts.push_back(file->text);
     file->path.clear();
   }
-  add(write(copy));
+  hash.add(write(copy));
   for (const auto& text : texts) {
-    add(std::to_string(text ? text->size() : 0) + ':');
-    if (text) add(*text);
+    hash.add(std::to_string(text ? text->size() : 0) + ':');
+    if (text) hash.add(*text);
   }
-  std::array<char, 16> digits{};
-  for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit, state >>= 4)
-    *digit = "0123456789abcdef"[state & 15];
-  return {digits.data(), digits.size()};
+  return hash.text();
 }
 
 std::string_view unit_name(FrequencyUnit unit) {
