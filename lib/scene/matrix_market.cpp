@@ -56,7 +56,7 @@ std::optional<double> real(std::string_view word) {
 class MatrixMarketReader {
  public:
   MatrixMarketReader(std::string_view text, const std::string& file, const StopRequest& stop)
-      : text_(text), file_(file), stop_(stop) {}
+      : text_(text), bytes_(text.size()), file_(file), stop_(stop) {}
 
   SparseMatrix read() {
     read_banner();
@@ -143,6 +143,10 @@ class MatrixMarketReader {
         sizes.push_back(*size);
     if (sizes.size() != words_.size() || sizes.size() != (coordinate_ ? 3u : 2u))
       fail("found " + shown_word(line_of_words()) + ", must be the numbers of " + wanted);
+    if (static_cast<std::size_t>(std::max(sizes[0], sizes[1])) > std::max(largest_empty_matrix, bytes_))
+      fail("found " + std::to_string(sizes[0]) + " rows and " + std::to_string(sizes[1]) +
+           " columns in a file of " + std::to_string(bytes_) + " bytes, must have at most " +
+           std::to_string(largest_empty_matrix) + " of each, or an entry in each");
     rows_ = static_cast<int>(sizes[0]);
     columns_ = static_cast<int>(sizes[1]);
     if (symmetry_ != Symmetry::general && rows_ != columns_)
@@ -234,6 +238,7 @@ class MatrixMarketReader {
   }
 
   std::string_view text_;
+  std::size_t bytes_;
   const std::string& file_;
   const StopRequest& stop_;
   std::size_t line_ = 0;

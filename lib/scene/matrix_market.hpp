@@ -22,6 +22,9 @@
 namespace arcslip::scene {
 
 inline constexpr std::size_t largest_matrix_size = 100'000'000;  // rows or columns in a file
+/// Rows or columns of a matrix whose file is too short for an entry in each, as of the damping by few
+/// dampers.
+inline constexpr std::size_t largest_empty_matrix = 10'000'000;
 
 /// A file that does not hold the matrix that it should: what() names file, line and cause.
 class MatrixError : public std::runtime_error {
