@@ -7,7 +7,7 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/arcslipConfig.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/arcslipConfigVersion.cmake
   VERSION ${PROJECT_VERSION} COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/arcslipConfig.cmake ${PROJECT_BINARY_DIR}/arcslipConfigVersion.cmake
-              ${PROJECT_SOURCE_DIR}/cmake/FindSuiteSparse.cmake ${PROJECT_SOURCE_DIR}/cmake/FindMatIO.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/FindSuiteSparse.cmake
         DESTINATION ${package_folder})
 install(EXPORT arcslip NAMESPACE arcslip:: FILE arcslipTargets.cmake DESTINATION ${package_folder})
 install(CODE "set(BUILD \"${PROJECT_BINARY_DIR}\")

@@ -1,59 +1,33 @@
+#include <arcslip/scene/child_output.hpp>
 #include <arcslip/scene/faults.hpp>
 #include <arcslip/scene/mat_file.hpp>
+#include <arcslip/scene/mat_protocol.hpp>
 #include <arcslip/scene/matrix_market.hpp>
-
-#include <H5Dpublic.h>
-#include <H5Epublic.h>
-#include <H5Fpublic.h>
-#include <H5Ppublic.h>
-#include <H5Spublic.h>
-#include <matio.h>
+#include <arcslip/scene/own_program.hpp>
 
 #include <algorithm>
-#include <array>
+#include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <memory>
-#include <mutex>
+#include <cstdlib>
 #include <optional>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 namespace arcslip::scene {
 namespace {
 
+using detail::ChildOutput;
 using file::listed;
 
-constexpr std::size_t largest_full = (std::size_t{4} << 30) / 8;  // entries
-constexpr std::size_t most_variables = 10'000;
-constexpr std::size_t most_compressed = 1100;  // bytes of data in one of the file: zlib's limit is 1032
-constexpr std::size_t header = 128;            // bytes before the first element of version 5
+constexpr std::size_t header = 128;  // bytes before the first element of version 5
 constexpr std::uint32_t matrix_element = 14, compressed_element = 15;
-
-struct CloseFile {
-  void operator()(mat_t* file) const { Mat_Close(file); }
-};
-struct FreeVariable {
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
-};
-using File = std::unique_ptr<mat_t, CloseFile>;
-using Variable = std::unique_ptr<matvar_t, FreeVariable>;
-
-// HDF5 reports errors on standard error, unless told not to.
-class QuietHdf5 {
- public:
-  QuietHdf5() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  QuietHdf5(const QuietHdf5&) = delete;
-  QuietHdf5& operator=(const QuietHdf5&) = delete;
-  ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
-};
+constexpr const char* program = "arcslip-mat";
+constexpr const char* program_variable = "ARCSLIP_MAT";
+constexpr std::size_t longest_line = 200;  // of what it writes
+constexpr std::size_t at_once = 1 << 18;   // numbers between which memory grows
 
 bool is_version_5(std::string_view text) {
   return text.starts_with("MATLAB 5.0 MAT-file");
@@ -62,13 +36,31 @@ bool is_version_73(std::string_view text) {
   return text.starts_with("MATLAB 7.3 MAT-file");
 }
 
-std::string name_of(matio_classes type) {
-  constexpr std::array<const char*, 18> names = {
-      "an empty array", "a cell array", "a struct", "an object", "characters", "a sparse matrix",
-      "doubles",        "singles",      "int8",     "uint8",     "int16",      "uint16",
-      "int32",          "uint32",       "int64",    "uint64",    "a function", "an object"};
-  const auto k = static_cast<std::size_t>(type);
-  return k < names.size() ? names[k] : "an array of an unknown type";
+// A machine that is busy gives it a tenth of its time: arcslip-mat itself is ended by its processor time.
+std::chrono::seconds longest_time(std::size_t bytes) {
+  return std::chrono::seconds(100 + bytes / 10'000);
+}
+
+// Nothing but where its libraries are, and no lock on files, which some file systems do not grant.
+std::vector<std::string> environment() {
+  std::vector<std::string> all{"HDF5_USE_FILE_LOCKING=FALSE"};
+  if (const char* folders = std::getenv("LD_LIBRARY_PATH"))
+    all.push_back("LD_LIBRARY_PATH=" + std::string(folders));
+  return all;
+}
+
+std::optional<std::vector<std::size_t>> numbers(std::string_view text) {
+  std::vector<std::size_t> all;
+  while (!text.empty()) {
+    if (!text.starts_with(' ')) return {};
+    text.remove_prefix(1);
+    std::size_t number = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc()) return {};
+    all.push_back(number);
+    text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
+  }
+  return all;
 }
 
 class MatFileReader {
@@ -79,21 +71,13 @@ class MatFileReader {
 
   SparseMatrix read() {
     check_file();
-    static std::mutex one_at_a_time;
-    const std::lock_guard lock(one_at_a_time);
-    const QuietHdf5 quiet;
     listen();
-    const File file(Mat_Open(path_.c_str(), MAT_ACC_RDONLY));
-    if (!file) fail("found no MATLAB file of version 5 or 7.3 that can be read; it may be damaged");
-    const Variable variable = find(file.get());
-    told_ += ", variable " + file::quoted(variable->name);
-    check_type(*variable);
-    if (is_version_73(text_) && variable->class_type == MAT_C_SPARSE) check_size(variable->name);
-    listen();
-    if (Mat_VarReadDataAll(file.get(), variable.get()) != 0 || variable->data == nullptr)
-      fail("its data cannot be read; the file may be damaged");
-    listen();
-    return variable->class_type == MAT_C_SPARSE ? sparse(*variable) : full(*variable);
+    ChildOutput answer = start();
+    const std::string line = answer.line(longest_line).value_or("");
+    if (const auto sizes = sizes_behind(line, "matrix", 4)) return matrix(answer, *sizes);
+    if (const auto sizes = sizes_behind(line, "variables", 2)) tell_variables(answer, *sizes);
+    if (const auto sizes = sizes_behind(line, "fault", 2)) tell_fault(answer, *sizes);
+    refuse(answer);
   }
 
  private:
@@ -102,16 +86,23 @@ class MatFileReader {
     if (is_asked(stop_)) throw Interrupted("interrupted while " + told_ + " was read");
   }
 
-  // matio takes whatever it does not know for a file of version 4, and reads short files as far as they go.
+  // matio takes whatever it does not know for a file of version 4, goes by the number of the version alone,
+  // and reads short files as far as they go.
   void check_file() const {
-    if (is_version_73(text_)) return;
-    if (!is_version_5(text_))
+    const bool with_hdf5 = is_version_73(text_);
+    if (!with_hdf5 && !is_version_5(text_))
       fail(
           "found no MATLAB file of version 5 or 7.3, must begin with \"MATLAB 5.0 MAT-file\" or \"MATLAB 7.3 "
           "MAT-file\"; in MATLAB, save it by save(..., \"-v7\") or save(..., \"-v7.3\")");
     if (text_.size() < header) fail("the file ends within its header of 128 bytes");
     const std::string_view order = text_.substr(126, 2);
-    if (order != "IM" && order != "MI") fail("found a damaged header");
+    const std::string_view version = text_.substr(124, 2), low_first(with_hdf5 ? "\0\2" : "\0\1", 2);
+    const bool known = (order == "IM" && version == low_first) ||
+                       (order == "MI" && version[0] == low_first[1] && version[1] == low_first[0]);
+    if (!known && with_hdf5)
+      fail("found no MATLAB file of version 5 or 7.3 that can be read; it may be damaged");
+    if (!known) fail("found a damaged header");
+    if (with_hdf5) return;
     const auto word = [&](std::size_t at) {
       std::uint32_t value = 0;
       for (std::size_t k = 0; k < 4; ++k)
@@ -132,139 +123,167 @@ class MatFileReader {
     }
   }
 
-  // The variable by its name, or the only one.
-  Variable find(mat_t* file) const {
-    std::vector<std::string> names;
-    Variable first;
-    while (Variable next{Mat_VarReadNextInfo(file)}) {
-      if (next->name == nullptr) continue;
-      names.emplace_back(next->name);
-      if (names.size() > most_variables)
-        fail("found more than " + std::to_string(most_variables) + " variables");
-      if (!name_.empty() && name_ == next->name) return next;
-      if (name_.empty() && names.size() == 1) first = std::move(next);
+  ChildOutput start() const {
+    const detail::OwnProgram found = detail::find_own_program(program, program_variable);
+    if (found.path.empty())
+      fail("found a MATLAB file, which is read by the program " + std::string(program) +
+           ", which is not there, must be in one of " + listed(found.folders) + ", in PATH, or where " +
+           program_variable + " says; it is built where matio is installed");
+    std::vector<std::string> arguments{path_};
+    if (!name_.empty()) arguments.push_back(name_);
+    try {
+      return ChildOutput(found.path, arguments, environment(), {longest_time(text_.size()), stop_});
+    } catch (const std::system_error& error) {
+      fail("found a MATLAB file, which is read by the program " + file::quoted(found.path) +
+           ", which cannot be started: " + error.code().message());
     }
+  }
+
+  // What stands behind the greeting and this word: so many numbers.
+  static std::optional<std::vector<std::size_t>> sizes_behind(std::string_view line, std::string_view word,
+                                                              std::size_t count) {
+    for (const std::string_view begin :
+         {std::string_view(mat_protocol::greeting), std::string_view(" "), word}) {
+      if (!line.starts_with(begin)) return {};
+      line.remove_prefix(begin.size());
+    }
+    auto sizes = numbers(line);
+    if (sizes && sizes->size() != count) sizes.reset();
+    return sizes;
+  }
+
+  // Where what arrives is not what it should be, or no more arrives.
+  [[noreturn]] void refuse(ChildOutput& answer) const {
+    using enum ChildOutput::End;
+    listen();
+    if (answer.end() == stopped) throw Interrupted("interrupted while " + told_ + " was read");
+    if (answer.end() == out_of_time)
+      fail("found a file that is not read within " + std::to_string(longest_time(text_.size()).count()) +
+           " s; it may be damaged");
+    if (answer.end() == by_signal) fail("found a file that cannot be read; it may be damaged");
+    fail("found a file that cannot be read; it may be damaged, or the program " + std::string(program) +
+         " is of another version");
+  }
+  void expect(bool kept, ChildOutput& answer) const {
+    if (!kept) refuse(answer);
+  }
+
+  std::string text(ChildOutput& answer, std::size_t bytes, std::size_t most) const {
+    expect(bytes <= most, answer);
+    std::string text(bytes, ' ');
+    expect(answer.read(text.data(), bytes), answer);
+    return text;
+  }
+
+  template <class T>
+  std::vector<T> array(ChildOutput& answer, std::size_t count) const {
+    std::vector<T> all;
+    all.reserve(count);
+    while (all.size() < count) {
+      const std::size_t more = std::min(at_once, count - all.size());
+      all.resize(all.size() + more);
+      expect(answer.read(all.data() + all.size() - more, more * sizeof(T)), answer);
+    }
+    return all;
+  }
+
+  [[noreturn]] void tell_fault(ChildOutput& answer, const std::vector<std::size_t>& sizes) {
+    const std::string variable = text(answer, sizes[0], mat_protocol::longest_name);
+    const std::string cause = text(answer, sizes[1], mat_protocol::longest_cause);
+    expect(answer.ends_well(), answer);
+    expect(!cause.empty() &&
+               std::all_of(cause.begin(), cause.end(), [](char c) { return c >= ' ' && c <= '~'; }),
+           answer);
+    if (!variable.empty()) told_ += ", variable " + file::quoted(variable);
+    fail(cause);
+  }
+
+  // There are several, or not the one that was asked for.
+  [[noreturn]] void tell_variables(ChildOutput& answer, const std::vector<std::size_t>& sizes) const {
+    expect(sizes[0] <= mat_protocol::most_variables, answer);
+    std::string_view rest;
+    const std::string all = text(answer, sizes[1], sizes[0] * (mat_protocol::longest_name + 1));
+    expect(answer.ends_well() && (all.empty() || all.back() == '\0'), answer);
+    std::vector<std::string> names;
+    for (rest = all; !rest.empty(); rest.remove_prefix(names.back().size() + 1))
+      names.emplace_back(rest.substr(0, rest.find('\0')));
+    expect(names.size() == sizes[0] && (!name_.empty() || names.size() != 1), answer);
     if (names.empty()) fail("found no variable; the file may be damaged");
     std::sort(names.begin(), names.end());
     if (!name_.empty())
       fail("found no variable " + file::quoted(name_) + ", must be " + (names.size() > 1 ? "one of " : "") +
            listed(names) + file::hint(name_, names));
-    if (names.size() > 1)
-      fail("found the variables " + listed(names) +
-           R"(, must be told which: {"file": ..., "variable": ...})");
-    return first;
+    fail("found the variables " + listed(names) + R"(, must be told which: {"file": ..., "variable": ...})");
   }
 
-  void check_type(const matvar_t& of) const {
-    const std::string must = ", must be a real matrix of doubles, sparse or full";
-    if (of.class_type != MAT_C_SPARSE && of.class_type != MAT_C_DOUBLE)
-      fail("found " + name_of(of.class_type) + must);
-    if (of.isComplex != 0) fail("found a complex matrix" + must);
-    if (of.isLogical != 0) fail("found a logical matrix" + must);
-    if (of.rank != 2 || of.dims == nullptr)
-      fail("found an array of " + std::to_string(of.rank) + " dimensions" + must);
-    if (std::max(of.dims[0], of.dims[1]) > largest_matrix_size)
-      fail("found " + size(of) + ", must have at most " + std::to_string(largest_matrix_size) + " of each");
-    if (of.class_type == MAT_C_DOUBLE && of.dims[1] > 0 && of.dims[0] > largest_full / of.dims[1])
-      fail("found a full matrix with " + size(of) + ", must be sparse where it takes more than 4 GB");
-    if (of.class_type == MAT_C_DOUBLE && of.dims[0] * of.dims[1] / most_compressed > text_.size() / 8)
-      fail("found a full matrix with " + size(of) + " in a file of " + std::to_string(text_.size()) +
-           " bytes; it may be damaged");
-  }
-  // matio takes the memory that the lengths in a file ask for, also where they are damaged.
-  void check_size(const std::string& variable) const {
-    const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    std::size_t longest = 0;
-    for (const char* part : {"/ir", "/jc", "/data"}) {
-      const hid_t data = H5Dopen2(file, (variable + part).c_str(), H5P_DEFAULT);
-      if (data < 0) continue;  // an empty matrix has none
-      const hid_t space = H5Dget_space(data);
-      longest = std::max(longest, static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-      H5Sclose(space);
-      H5Dclose(data);
-    }
-    H5Fclose(file);
-    if (longest / most_compressed > text_.size() / 4)
-      fail("found " + std::to_string(longest) + " entries in a file of " + std::to_string(text_.size()) +
-           " bytes; it may be damaged");
-  }
-  static std::string size(const matvar_t& of) {
-    return std::to_string(of.dims[0]) + " rows and " + std::to_string(of.dims[1]) + " columns";
-  }
-
-  double finite(double value, std::size_t row, std::size_t column) const {
-    if (!std::isfinite(value))
-      fail("found " + file::number_text(value) + " in row " + std::to_string(row + 1) + ", column " +
-           std::to_string(column + 1) + ", must be a finite number");
-    return value;
-  }
-
-  SparseMatrix full(const matvar_t& of) const {
-    const std::size_t rows = of.dims[0], columns = of.dims[1];
-    if (of.data_type != MAT_T_DOUBLE || of.nbytes < 8 * rows * columns)
-      fail("its data cannot be read; the file may be damaged");
-    SparseMatrix A{static_cast<int>(rows), static_cast<int>(columns), {0}, {}, {}};
-    const auto* value = static_cast<const double*>(of.data);
-    for (std::size_t j = 0; j < columns; ++j) {
-      for (std::size_t i = 0; i < rows; ++i, ++value) {
-        if (*value == 0) continue;
-        A.row_of.push_back(static_cast<int>(i));
-        A.values.push_back(finite(*value, i, j));
-      }
-      A.starts.push_back(static_cast<int>(A.values.size()));
-    }
+  SparseMatrix matrix(ChildOutput& answer, const std::vector<std::size_t>& sizes) {
+    const std::size_t rows = sizes[1], columns = sizes[2], count = sizes[3];
+    const std::string variable = text(answer, sizes[0], mat_protocol::longest_name);
+    expect(!variable.empty() && mat_protocol::has_size(text_.size(), rows, columns) &&
+               mat_protocol::has_entries(text_.size(), count),
+           answer);
+    told_ += ", variable " + file::quoted(variable);
+    SparseMatrix A{static_cast<int>(rows), static_cast<int>(columns), {}, {}, {}};
+    A.starts = array<int>(answer, columns + 1);
+    check_starts(A, static_cast<int>(count));
+    A.row_of = array<int>(answer, count);
+    A.values = array<double>(answer, count);
+    expect(answer.ends_well(), answer);
+    if (!check_entries(A)) put_in_order(A);
     return A;
   }
 
-  SparseMatrix sparse(const matvar_t& of) const {
-    const auto& from = *static_cast<const mat_sparse_t*>(of.data);
-    const std::size_t rows = of.dims[0], columns = of.dims[1];
-    const auto damaged = [&](const std::string& what) {
-      fail("found " + what + "; the file may be damaged");
-    };
-    if (from.njc != columns + 1 || from.jc == nullptr || from.jc[0] != 0)
-      damaged("no starts of its " + std::to_string(columns) + " columns");
-    const std::size_t count = from.jc[columns];
-    if (count > 0 && (from.ir == nullptr || from.data == nullptr || count > from.nir || count > from.ndata ||
-                      of.data_type != MAT_T_DOUBLE || count > INT32_MAX))
-      damaged("fewer entries than the " + std::to_string(count) + " that its columns have");
-    SparseMatrix A{static_cast<int>(rows), static_cast<int>(columns), {0}, {}, {}};
-    A.starts.reserve(columns + 1);
-    A.row_of.reserve(count);
-    A.values.reserve(count);
-    const auto* values = static_cast<const double*>(from.data);
+  [[noreturn]] void tell_damage(const std::string& what) const {
+    fail("found " + what + "; the file may be damaged");
+  }
+
+  void check_starts(const SparseMatrix& A, int count) const {
+    if (A.starts[0] != 0) tell_damage("no starts of its " + std::to_string(A.columns) + " columns");
+    for (std::size_t j = 1; j < A.starts.size(); ++j)
+      if (A.starts[j] < A.starts[j - 1] || A.starts[j] > count)
+        tell_damage("that column " + std::to_string(j) + " ends before it begins");
+    if (A.starts.back() != count)
+      tell_damage("fewer entries than the " + std::to_string(count) + " that its columns have");
+  }
+
+  // True where each column has its rows in their order.
+  bool check_entries(const SparseMatrix& A) const {
     bool sorted = true;
-    for (std::size_t j = 0; j < columns; ++j) {
-      if (from.jc[j + 1] < from.jc[j] || from.jc[j + 1] > count)
-        damaged("that column " + std::to_string(j + 1) + " ends before it begins");
-      for (std::size_t k = from.jc[j]; k < from.jc[j + 1]; ++k) {
-        if (from.ir[k] >= rows)
-          damaged("the row " + std::to_string(std::size_t{from.ir[k]} + 1) + " in column " +
-                  std::to_string(j + 1) + ", where it has " + std::to_string(rows) + " rows");
-        sorted = sorted && (k == from.jc[j] || from.ir[k - 1] < from.ir[k]);
-        A.row_of.push_back(static_cast<int>(from.ir[k]));
-        A.values.push_back(finite(values[k], from.ir[k], j));
+    std::size_t k = 0;
+    for (std::size_t j = 0; j + 1 < A.starts.size(); ++j) {
+      const std::size_t first = k;
+      for (; k < static_cast<std::size_t>(A.starts[j + 1]); ++k) {
+        const auto row = static_cast<std::uint32_t>(A.row_of[k]);
+        if (row >= static_cast<std::uint32_t>(A.rows))
+          tell_damage("the row " + std::to_string(std::size_t{row} + 1) + " in column " +
+                      std::to_string(j + 1) + ", where it has " + std::to_string(A.rows) + " rows");
+        if (!std::isfinite(A.values[k]))
+          fail("found " + file::number_text(A.values[k]) + " in row " + std::to_string(row + 1) +
+               ", column " + std::to_string(j + 1) + ", must be a finite number");
+        sorted = sorted && (k == first || A.row_of[k - 1] < A.row_of[k]);
       }
-      A.starts.push_back(static_cast<int>(A.values.size()));
     }
-    return sorted ? A : in_order(A);
+    return sorted;
   }
 
   // Each column by its rows.
-  SparseMatrix in_order(const SparseMatrix& A) const {
-    std::vector<MatrixEntry> entries;
-    entries.reserve(A.values.size());
-    std::vector<int> last(static_cast<std::size_t>(A.rows), -1);  // column of the last entry of each row
-    for (int j = 0; j < A.columns; ++j)
-      for (auto k = static_cast<std::size_t>(A.starts[static_cast<std::size_t>(j)]);
-           k < static_cast<std::size_t>(A.starts[static_cast<std::size_t>(j) + 1]); ++k) {
-        const int i = A.row_of[k];
-        if (std::exchange(last[static_cast<std::size_t>(i)], j) == j)
-          fail("found the entry in row " + std::to_string(i + 1) + ", column " + std::to_string(j + 1) +
+  void put_in_order(SparseMatrix& A) const {
+    std::vector<std::pair<int, double>> column;
+    for (std::size_t j = 0; j + 1 < A.starts.size(); ++j) {
+      const auto first = static_cast<std::size_t>(A.starts[j]),
+                 last = static_cast<std::size_t>(A.starts[j + 1]);
+      column.clear();
+      for (std::size_t k = first; k < last; ++k) column.emplace_back(A.row_of[k], A.values[k]);
+      std::sort(column.begin(), column.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      for (std::size_t k = first; k < last; ++k) {
+        const int row = column[k - first].first;
+        if (k > first && A.row_of[k - 1] == row)
+          fail("found the entry in row " + std::to_string(row + 1) + ", column " + std::to_string(j + 1) +
                " twice");
-        entries.push_back({i, j, A.values[k]});
+        A.row_of[k] = row;
+        A.values[k] = column[k - first].second;
       }
-    return sparse_matrix(A.rows, A.columns, entries);
+    }
   }
 
   const std::string& path_;
