@@ -208,6 +208,11 @@ std::variant<CommandOptions, Information> parse(int argc, const char* const* arg
     throw UsageError(results::visible(error.what()) + "\n" + hint);
   }
   const CLI::App* verb = app.get_subcommands().front();
+  for (const auto& [option, text] : {std::pair{"--harmonics", &texts.harmonics},
+                                     {"--accuracy", &texts.accuracy},
+                                     {"--combinations", &texts.combinations},
+                                     {"--threads", &texts.threads}})
+    if (given(*verb, option) && text->empty()) throw UsageError(std::string(option) + ": found no value");
   if (verb == schema) return Information{scene::json_schema(catalogue)};
   const Verb& chosen = *verb_of.at(verb);
   options.verb = chosen.name;

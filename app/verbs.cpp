@@ -247,7 +247,8 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
       tell(sentence);
     }
     for (const std::string& sentence : remarks.doubts) tell(sentence);
-    for (const std::string& sentence : remarks.others) tell(sentence);
+    for (const std::string& sentence : remarks.others)
+      if (!options.quiet) tell(sentence);
     if (held) {
       for (const std::string& path : write_set(*held, files[i], scene, header, own, figures, writing))
         places += results::visible(path) + "\n";

@@ -145,6 +145,7 @@ std::optional<BranchPoint> describe_branch_point(const Problem& problem, int alo
                                                  const BranchPointLocation& at, const Vector& tangent) {
   if (!at.branches_cross()) return {};
   const SymmetricModes form = symmetric_modes(at.null_space.form);
+  if (form.values.size() < 2) return {};
   const double negative = form.values[0], positive = form.values[1];
   const double larger = std::max(positive, -negative), smaller = std::min(positive, -negative);
   if (!(smaller > eigenvalue_error * larger)) return {};

@@ -2,6 +2,8 @@
 
 #include <arcslip/model/model.hpp>
 #include <arcslip/model/placed_matrices.hpp>
+#include <arcslip/results/text.hpp>
+#include <arcslip/scene/csv_text.hpp>
 #include <arcslip/scene/shape.hpp>
 
 #include <algorithm>
@@ -56,6 +58,17 @@ Eigen::MatrixXd semidefinite(Eigen::MatrixXd K, const Eigen::MatrixXd& M, double
     if (K(i, i) < 0 && -K(i, i) <= rounding * size) K(i, i) = 0;
   }
   return K;
+}
+
+// A name that a table of names holds as it is.
+const std::string& plain_name(const std::string& name) {
+  if (name.find_first_of(",\"\r\n") != std::string::npos || name.front() == '#' ||
+      scene::file::trimmed(name).size() != name.size())
+    throw NotReduced(
+        "the degree of freedom " + results::json_quoted(name) +
+        " has a name that names.csv cannot hold: use one without commas, quotes and line breaks, "
+        "without white space at its ends, and without a leading #");
+  return name;
 }
 
 // The blocks of the matrices of the structure in the rows and coordinates of its reduction.
@@ -131,7 +144,7 @@ ReducedScene reduced_scene(const scene::Scene& scene, const std::string& folder,
   if (from.circulatory.matrix) to.circulatory = add_matrix("N.mtx", blocks.next(), MatrixForm::skew);
   std::string names = "name,row\n";
   for (int i = 0; i < model.unnamed_from; ++i)
-    names += model.dof_names[static_cast<std::size_t>(i)] + ',' + std::to_string(i + 1) + '\n';
+    names += plain_name(model.dof_names[static_cast<std::size_t>(i)]) + ',' + std::to_string(i + 1) + '\n';
   to.names = add("names.csv", names);
   to.bar.reset();
   if (model.unnamed_to <= largest_whole) to.highest_frequency = 0;

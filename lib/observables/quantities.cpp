@@ -278,7 +278,7 @@ constexpr Quantity<Stability> of_stability[] = {
     {"stable", "", "no Floquet multiplier lies outside the unit circle",
      [](const Stability& stability) { return stability.unstable == 0; }},
     {"unstable_multipliers", "", "how many lie outside it",
-     [](const Stability& stability) { return static_cast<double>(stability.unstable); }},
+     [](const Stability& stability) { return results::Value(stability.unstable); }},
     {"multipliers", "",
      "Floquet multipliers over the period of the motion, `[re, im]` of each by falling modulus; none of "
      "sliders that stick throughout",

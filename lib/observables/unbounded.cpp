@@ -2,6 +2,7 @@
 
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/energies.hpp>
+#include <arcslip/results/text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -103,7 +104,8 @@ Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector
          << result.dissipation << " N of the " << result.input
          << " N supplied by the excitation (work per period over pi and amplitude)";
   } else {
-    text << "beyond " << amplitude << " m the response is bounded by "
+    text << (std::isfinite(amplitude) ? "beyond " + results::quantity(amplitude, "m") : "at any amplitude")
+         << " the response is bounded by "
          << (damped      ? "viscous damping"
              : restoring ? "a nonlinear spring"
              : losing    ? "a nonlinear damper"

@@ -30,7 +30,7 @@ std::string text_field(const std::string& text) {
 }
 
 std::string cell(double value) {
-  return std::isnan(value) ? "" : shortest(value);
+  return std::isfinite(value) ? shortest(value) : "";
 }
 
 std::string cell(long value) {

@@ -137,7 +137,8 @@ std::string with_unit(std::string_view quantity, std::string_view unit) {
 std::string quantity(double value, std::string_view unit) {
   char digits[32];
   std::snprintf(digits, sizeof digits, "%.10g", value);  // without the last digits' rounding
-  std::string text = shortest(std::strtod(digits, nullptr));
+  const double rounded = std::strtod(digits, nullptr);
+  std::string text = shortest(std::isfinite(rounded) ? rounded : value);
   if (!unit.empty() && unit != "-") text.append(" ").append(unit);
   return text;
 }

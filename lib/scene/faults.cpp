@@ -165,7 +165,7 @@ std::string shown(std::string_view text) {
 }
 
 std::string listed(std::span<const std::string> words) {
-  constexpr std::size_t most = 12;
+  constexpr std::size_t most = 20;
   std::string result;
   for (std::size_t i = 0; i < words.size() && i < most; ++i) result += (i == 0 ? "" : ", ") + shown(words[i]);
   if (words.size() > most) result += ", ... (" + std::to_string(words.size()) + " in all)";

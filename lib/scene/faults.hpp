@@ -56,7 +56,7 @@ std::string number_text(double value);
 std::string quoted(std::string_view text);
 /// The same, shortened to fit a message.
 std::string shown(std::string_view text);
-/// `"a", "b", "c"`, at most twelve.
+/// `"a", "b", "c"`, at most twenty.
 std::string listed(std::span<const std::string> words);
 /// `; did you mean "word"?`, or "" if no known word is similar.
 std::string hint(std::string_view word, std::span<const std::string> known);

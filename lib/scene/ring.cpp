@@ -40,17 +40,16 @@ std::optional<Cyclic> read_numbers(const Keys& keys, Faults& faults) {
 /// The entries of one sector, changed to entries that stand for all.
 class Sector {
  public:
-  Sector(Node& scene, const Cyclic& of, const FileSource& source)
-      : scene_(scene), structure_(find(&scene, "structure")), of_(of) {
-    if (find(structure_, "matrices") != nullptr) dofs_ = row_names({find(structure_, "names"), {}}, source);
-    if (const Node::List* dofs = list_in(structure_, "dofs"))
+  Sector(Node& scene, const Cyclic& of, const FileSource& source) : scene_(scene), of_(of) {
+    if (find(structure(), "matrices") != nullptr) dofs_ = row_names({find(structure(), "names"), {}}, source);
+    if (const Node::List* dofs = list_in(structure(), "dofs"))
       for (const Node& dof : *dofs)
         if (const auto* name = dof.get<std::string>()) dofs_.push_back(*name);
     is_dof_.insert(dofs_.begin(), dofs_.end());
   }
 
   void repeat_parts() {
-    for (const char* section : {"masses", "springs", "dampers"}) repeat_all(list_in(structure_, section));
+    for (const char* section : {"masses", "springs", "dampers"}) repeat_all(list_in(structure(), section));
     repeat_all(list_in(&scene_, "elements"));
     if (Node::List* excitation = list_in(&scene_, "excitation"))
       for (Node& entry : *excitation) excite(entry);
@@ -58,7 +57,7 @@ class Sector {
   }
 
   void repeat_names() {
-    if (Node::List* dofs = list_in(structure_, "dofs")) repeat_texts(*dofs, {});
+    if (Node::List* dofs = list_in(structure(), "dofs")) repeat_texts(*dofs, {});
     if (Node* ties = find(&scene_, "ties"); ties != nullptr && ties->get<Node::Object>() != nullptr)
       for (Member& tie : std::get<Node::Object>(ties->value))
         if (auto* members = std::get_if<Node::List>(&tie.value.value)) repeat_texts(*members, ".");
@@ -84,12 +83,15 @@ class Sector {
 
   // One copy of the structure for each sector.
   void copy_matrices() {
-    if (auto* matrices = find(structure_, "matrices"); matrices != nullptr)
+    if (auto* matrices = find(structure(), "matrices"); matrices != nullptr)
       if (auto* files = std::get_if<Node::Object>(&matrices->value))
         files->push_back({"copies", {static_cast<double>(of_.sectors)}});
   }
 
  private:
+  // Looked for at each use: a key that is added to the scene moves its members.
+  Node* structure() const { return find(&scene_, "structure"); }
+
   Node repeat() const {
     return {Node::Object{{"count", {static_cast<double>(of_.sectors)}},
                          {"index", {std::string(index_name)}},
@@ -205,7 +207,6 @@ class Sector {
   }
 
   Node& scene_;
-  Node* structure_;
   const Cyclic of_;
   std::vector<std::string> dofs_;
   std::unordered_set<std::string> is_dof_;  // these names
@@ -281,7 +282,9 @@ Ring write_out_ring(Node& scene, const FileSource& source, Origins& origins, Fau
   sector.repeat_parts();
   sector.repeat_names();
   sector.repeat_response();
-  std::erase_if(std::get<Node::Object>(structure->value), [](const Member& m) { return m.key == "cyclic"; });
+  // Looked for again: a key that is added to the scene moves its members.
+  std::erase_if(std::get<Node::Object>(find(&scene, "structure")->value),
+                [](const Member& m) { return m.key == "cyclic"; });
   Origins all = repeat(scene, faults);
   put_behind(origins, all);
   origins = std::move(all);

@@ -12,10 +12,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <optional>
 #include <random>
 #include <sstream>
 #include <utility>
+
+#include <sys/mman.h>
 
 namespace arcslip::structure {
 namespace {
@@ -37,6 +40,16 @@ constexpr const char* interrupted = "interrupted while the structure was reduced
 
 void listen(const scene::StopRequest& stop) {
   if (scene::is_asked(stop)) throw scene::Interrupted(interrupted);
+}
+
+// OpenBLAS takes 128 MB at its first use, and asks for them without an end where there are none.
+constexpr std::size_t memory_of_blas = std::size_t{168} << 20;  // bytes
+
+void require_memory_of_blas() {
+  void* const memory = ::mmap(nullptr, memory_of_blas, PROT_READ | PROT_WRITE,
+                              MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  ::munmap(memory, memory_of_blas);
 }
 
 class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse> {
@@ -146,6 +159,7 @@ class Reduction {
     const Sparse A = K_.ii + sigma_ * M_.ii;
     // Not every LAPACK finds a NaN.
     if (!Eigen::Map<const VectorXd>(A.valuePtr(), A.nonZeros()).allFinite()) refuse_overflow();
+    require_memory_of_blas();
     A_.compute(A);
     listen(stop_);
     if (A_.info() == Eigen::Success) return;
@@ -441,6 +455,7 @@ class Reduction {
       if (K2_) into.K2 = P_.K2_c;
     } else {
       continuation::SymmetricModes modes = continuation::symmetric_modes(P_.M_zz);
+      if (modes.values.size() != P_.M_zz.rows()) refuse_overflow();
       const VectorXd& theta = modes.values;
       Q = std::move(modes.V);
       const MatrixXd mu = Q.transpose() * P_.M_zb;

@@ -27,7 +27,9 @@ void require_mass(const EquationOfMotion& equation) {
     if (!(diagonal[i] > 0)) fail(i);
   const Vector scale = diagonal.cwiseSqrt().cwiseInverse();
   const Matrix scaled = scale.asDiagonal() * equation.M * scale.asDiagonal();
-  if (continuation::symmetric_eigenvalues(scaled)[0] > singular_mass) return;
+  const Vector values = continuation::symmetric_eigenvalues(scaled);
+  if (values.size() == 0) fail(0);  // overflow
+  if (values[0] > singular_mass) return;
   Eigen::Index i = 0;
   (scale.asDiagonal() * continuation::symmetric_modes(scaled).V.col(0)).cwiseAbs().maxCoeff(&i);
   fail(i);
