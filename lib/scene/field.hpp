@@ -8,7 +8,6 @@
 namespace arcslip::scene {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();  // as a bound: none
-inline constexpr double largest_value = 1e100;  // of a linear part: products with squares of frequencies stay finite
 
 /// One scalar of a part. It is a parameter of the scene under the name "part.field".
 struct Field {

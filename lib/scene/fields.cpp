@@ -10,13 +10,13 @@ namespace arcslip::scene {
 namespace {
 
 constexpr Field mass_fields[] = {
-    {.name = "value", .unit = "kg", .lower = 0, .upper = largest_value, .help = "mass"},
+    {.name = "value", .unit = "kg", .lower = 0, .upper = infinity, .help = "mass"},
 };
 constexpr Field spring_fields[] = {
-    {.name = "value", .unit = "N/m", .lower = -largest_value, .upper = largest_value, .help = "linear stiffness"},
+    {.name = "value", .unit = "N/m", .lower = -infinity, .upper = infinity, .help = "linear stiffness"},
 };
 constexpr Field damper_fields[] = {
-    {.name = "value", .unit = "N s/m", .lower = 0, .upper = largest_value, .help = "viscous damping"},
+    {.name = "value", .unit = "N s/m", .lower = 0, .upper = infinity, .help = "viscous damping"},
 };
 constexpr Field rayleigh_fields[] = {
     {.name = "alpha",

@@ -34,6 +34,24 @@ TEST_CASE("reduce writes a structure and a scene that run gives the results of t
   place.write("less/again.json", again);
   const Ended refused = run(place, {"reduce", "less/again.json", "--out", "less"});
   CHECK(refused.exit_code == 1);
-  CHECK(refused.err.find("K.mtx is a file of the scene itself: choose another folder with --out") !=
-        std::string::npos);
+  CHECK(refused.err.find("M.mtx is a file that the scene reads: choose another path") != std::string::npos);
+}
+
+TEST_CASE("reduce refuses names that a table of names cannot hold before it writes anything") {
+  for (const std::string name : {"tip,x", "tip ", " tip", "#tip", "ti\np", "ti\"p"}) {
+    const Workplace place;
+    Json scene = Json::parse(R"({"format": "arcslip-scene-1", "structure": {
+      "beam": {"elements": 30, "length": 1, "young": 2e11, "density": 7800, "width": 0.05, "height": 0.02,
+               "points": {}, "highest_frequency": 800}},
+      "excitation": [{"name": "f", "cosine": 1}], "response": {}})");
+    scene["structure"]["beam"]["points"][name] = 1;
+    scene["excitation"][0]["at"] = name;
+    scene["response"]["at"] = name;
+    place.write("bar.json", scene.dump());
+    const auto before = place.files();
+    const Ended ended = run(place, {"reduce", "bar.json", "--out", "less"});
+    CAPTURE(name, ended.err);
+    CHECK(ended.exit_code != 0);
+    CHECK(place.files() == before);
+  }
 }

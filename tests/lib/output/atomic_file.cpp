@@ -171,13 +171,17 @@ TEST_CASE("a link to what is not there yet is followed, link by link, and one in
   CHECK_THROWS_AS(write_file(folder / "circle", [](std::ostream&) {}), WriteError);
 }
 
-TEST_CASE("what killed writers have left is cleared, and nothing else") {
+TEST_CASE("what killed writers have left is cleared, and nothing of living ones or of others") {
   const TemporaryFolder folder;
   for (const char* name : {".arcslip-17-0.tmp", "a.svg.17.tmp", "b.c.png.4711.tmp", "a.svg", "a.tmp",
                            "a.svg.x.tmp", ".arcslip-x.tmp", "a.json.17.tmp"})
     write_file(folder / name, [](std::ostream& out) { out << "x"; });
+  arcslip::output::AtomicFile living(folder / "living");
   arcslip::output::clear_temporaries(folder.path());
-  CHECK(folder.files() == 5);
-  CHECK(support::fs::exists(folder / "a.json.17.tmp"));
-  CHECK_FALSE(support::fs::exists(folder / "b.c.png.4711.tmp"));
+  CHECK(folder.files() == 7);
+  CHECK(support::fs::exists(folder / "b.c.png.4711.tmp"));
+  CHECK_FALSE(support::fs::exists(folder / ".arcslip-17-0.tmp"));
+  living.stream() << "x";
+  living.commit();
+  CHECK(folder.files() == 8);
 }

@@ -224,22 +224,33 @@ TEST_CASE("a program that takes too long, or is asked to stop, is ended with all
   }
 }
 
-TEST_CASE("images of an earlier run are removed where the new ones cannot be drawn") {
-  const TemporaryFolder folder;
-  const SearchPath nothing("/nonexistent");
-  const std::vector branches{support::branch()};
-  drawn(support::scene(), BranchKind::responses, branches, folder.path(), "frf");
-  // As if they had been drawn, with one that the present figures do not have.
-  const std::string script = content(folder / "frf.gp");
-  output::write_file(folder / "frf.gp", [&](std::ostream& out) {
-    out << script << "set output 'frf_stick_other.svg'.suffix\nset output '../outside.svg'.suffix\n";
-  });
-  for (const char* image : {"frf_amplitude.svg", "frf_stick.png", "frf_stick_other.svg", "frf_mine.svg"})
-    output::write_file(folder / image, [](std::ostream& out) { out << "</svg>"; });
-  const auto figures = drawn(support::scene(), BranchKind::responses, branches, folder.path(), "frf");
-  CHECK(figures.problem.find("; those of an earlier run were removed") != std::string::npos);
+TEST_CASE(
+    "a gnuplot that the system cannot start is a problem in words, and no image that is there is touched") {
+  const TemporaryFolder folder, programs;
+  output::write_file(programs / "gnuplot", [](std::ostream& out) { out << "no program"; });
+  support::fs::permissions(programs / "gnuplot", support::fs::perms::owner_all);
+  const SearchPath path(programs.path());
+  output::write_file(folder / "frf_amplitude.svg", [](std::ostream& out) { out << "mine"; });
+  const auto figures =
+      drawn(support::scene(), BranchKind::responses, std::vector{support::branch()}, folder.path(), "frf");
+  CHECK(figures.problem.find(
+            "gnuplot cannot be started (Exec format error); the data and the script were written") == 0);
   CHECK(folder.files() == 3);
-  CHECK(support::fs::exists(folder / "frf_mine.svg"));
+  CHECK(content(folder / "frf_amplitude.svg") == "mine");
+}
+
+TEST_CASE("the names of all files that figures may write are known before") {
+  if (!have_gnuplot()) return;
+  const TemporaryFolder folder;
+  const auto data =
+      studies::figures_of(support::scene(), BranchKind::responses, std::vector{support::branch()});
+  const std::vector<std::string> names = output::figure_files(data, "frf");
+  const auto figures = output::draw_figures(data, folder.path(), "frf");
+  CHECK(figures.images.size() >= 2);
+  for (const auto& paths : {figures.sources, figures.images})
+    for (const std::string& written : paths)
+      CHECK(std::find(names.begin(), names.end(), support::fs::path(written).filename().string()) !=
+            names.end());
 }
 
 TEST_CASE("the data of a figure has a block for each line and its marks") {

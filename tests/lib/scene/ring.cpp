@@ -179,3 +179,28 @@ TEST_CASE("faults of rings are told where the user wrote them") {
     "excitation": [{"name": "f", "at": "x", "cosine": 1}]})",
               "/structure/springs/0/between/1", "belongs to masses, springs, dampers");
 }
+
+TEST_CASE(
+    "a full ring of one row without a response has that of each sector, however many keys stand before it") {
+  // A key that is added to the scene moves those that are there.
+  const std::string one =
+      R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {"dofs": ["tip"],
+    "cyclic": {"sectors": 3, "engine_order": 1, "full": true},
+    "masses": [{"name": "m", "at": "tip", "value": 1}], "springs": [{"name": "k", "at": "tip", "value": 4}]},
+    "excitation": [{"name": "f", "at": "tip", "cosine": 1}])";
+  const std::vector<std::string> more = {"",
+                                         R"(, "title": "t")",
+                                         R"(, "ties": {})",
+                                         R"(, "elements": [])",
+                                         R"(, "studies": [])",
+                                         R"(, "labels": {})",
+                                         R"(, "harmonics": {"order": 3})"};
+  std::string text = one;
+  for (const std::string& key : more) {
+    text += key;
+    CAPTURE(text);
+    const scene::Scene ring = scenes::parse(text + "}");
+    CHECK(ring.dofs == std::vector<std::string>{"tip1", "tip2", "tip3"});
+    CHECK(ring.masses.size() == 3);
+  }
+}
