@@ -118,8 +118,8 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
   } else if (!text || !objection(*text).empty()) {
     names.set_incomplete();
   }
-  if (part.type == nullptr) {
-    read_direction(keys, dofs, faults);
+  if (part.type == nullptr) {  // which may have no place
+    if (keys.has("at") || keys.has("between") || keys.has("direction")) read_direction(keys, dofs, faults);
     return part;
   }
   part.directions = read_directions(*part.type, part.options, keys, dofs, faults);

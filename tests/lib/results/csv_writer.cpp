@@ -71,3 +71,10 @@ TEST_CASE("the summary as CSV has a row for each result, with all facts that are
         "study,kind,load (N),thing,other,over,status,stop.reason,stop.value,doubt,best.x (m)");
   CHECK(summary(doubtful)[1] == "first,kind,2.5,1,,x,complete,end,1,\"hardly, so\",1.5");
 }
+
+TEST_CASE("what is not finite is an empty cell") {
+  Results results = made_up::results();
+  const std::vector<made_up::Item> items{{HUGE_VAL, 1, true, "", {}, -HUGE_VAL}};
+  results.results[0].tables[0] = made_up::table().rows(items);
+  for (const std::string& row : csv_lines(results, "rows")) CHECK(row.find("inf") == std::string::npos);
+}

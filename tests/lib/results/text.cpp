@@ -37,6 +37,13 @@ TEST_CASE("all other text stays, also what was escaped before, and line breaks w
   CHECK(visible_lines("a\nb\x1b") == "a\nb\\u001b");
 }
 
+TEST_CASE("a quantity near the largest number is that number, not infinity") {
+  using arcslip::results::quantity;
+  CHECK(quantity(1.7976931348623157e308, "N") == "1.7976931348623157e+308 N");
+  CHECK(quantity(-1.7976931348623157e308, "-") == "-1.7976931348623157e+308");
+  CHECK(quantity(1.23456789012345e300, "N") == "1.23456789e+300 N");
+}
+
 TEST_CASE("digits below twice an estimated error are not printed") {
   CHECK(with_error(3.36660710e-3, 0, "%.8e") == "3.36660710e-03");
   CHECK(with_error(3.36660710e-3, std::nan(""), "%.8e") == "3.36660710e-03");
