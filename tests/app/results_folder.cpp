@@ -1,10 +1,11 @@
 // Folders of results: no input is replaced, nothing of others is removed, and files that do not belong
 // together are told.
 
+#include "results_folder.hpp"
+
 #include "catch.hpp"
 #include "program.hpp"
 #include "random.hpp"
-#include "volume.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -284,7 +285,6 @@ TEST_CASE("a scene of an interrupted set is refused, and one that was changed si
 }
 
 TEST_CASE("killed at any moment, a mix of old and new files is told by the manifest") {
-  constexpr Volume kills{"ARCSLIP_KILLS", 4, 70};  // of each verb
   const Workplace place;
   write_matrices(place, 4000);
   fs::copy(place / "mesh", place / "mesh2");

@@ -4,6 +4,7 @@
 #include "app/bad_inputs.hpp"
 #include "app/interruptions.hpp"
 #include "app/output_paths.hpp"
+#include "app/results_folder.hpp"
 #include "fuzz/mutation.hpp"
 #include "lib/observables/extremes.hpp"
 #include "lib/observables/parameter_ranges.hpp"
@@ -234,6 +235,8 @@ Random cases, the same on every machine but for the moments of signals. The test
       app_test::random_interruptions().size(), "a signal at any moment",
       "14 100: 930 of each command below \"Interruptions\", and of the first four 890 to 1000 more. All "
       "files whole, none silent, none left over");
+  row("kills of `run`, `reduce` and `optimize` that write over older results", app_test::kills, 3,
+      "killed at any moment", "201: each mix of old and new files told by the manifest");
   row("random searches with limits over 1 to 4 parameters, on sums, energy, frequency and stick, beside "
       "searches by LN_COBYLA and LD_MMA from the lowest of forty other designs over the bounds",
       limited_searches::number, 1, "random searches with limits",
