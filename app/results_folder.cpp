@@ -33,7 +33,7 @@ namespace {
 constexpr const char* of_others = "not written by Arcslip";
 
 template <class Files>
-auto find(Files& files, const std::string& name) {
+auto file_named(Files& files, const std::string& name) {
   return std::find_if(files.begin(), files.end(), [&](const auto& file) { return file.name == name; });
 }
 
@@ -85,7 +85,7 @@ void ResultsFolder::write() const {
 
 const FileSet::File* ResultsFolder::known(const std::string& name) const {
   for (const FileSet& set : manifest_.sets)
-    if (const auto file = find(set.files, name); file != set.files.end()) return &*file;
+    if (const auto file = file_named(set.files, name); file != set.files.end()) return &*file;
   return nullptr;
 }
 
@@ -100,11 +100,12 @@ void ResultsFolder::begin_set(FileSet set) {
   }
   if (const FileSet* before = manifest_.find(set.name))
     for (const FileSet::File& file : before->files)
-      if (find(set.files, file.name) == set.files.end()) set.files.push_back(file);
+      if (file_named(set.files, file.name) == set.files.end()) set.files.push_back(file);
   std::erase_if(manifest_.sets, [&](const FileSet& other) { return other.name == set.name; });
   for (FileSet& other : manifest_.sets)
-    std::erase_if(other.files,
-                  [&](const FileSet::File& file) { return find(set.files, file.name) != set.files.end(); });
+    std::erase_if(other.files, [&](const FileSet::File& file) {
+      return file_named(set.files, file.name) != set.files.end();
+    });
   manifest_.sets.push_back(std::move(set));
   write();
 }
@@ -125,7 +126,7 @@ std::vector<std::string> ResultsFolder::end_set(const std::string& name, std::sp
     files.push_back({fs::path(path).filename().string(), scene::file_hash(path)});
   std::vector<std::string> removed;
   for (const FileSet::File& file : set.files) {
-    if (find(files, file.name) != files.end()) continue;
+    if (file_named(files, file.name) != files.end()) continue;
     if (!complete)
       files.push_back(file);
     else if (remove(file))

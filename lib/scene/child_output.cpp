@@ -13,23 +13,29 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+extern char** environ;
+
 namespace arcslip::scene::detail {
 namespace {
 
 constexpr int pause = 100;              // ms between questions whether to go on
 constexpr int pipe_capacity = 1 << 20;  // bytes, if the system grants them
 
-// Null streams but for the output, default signal handlers, and a process group, so that a terminal's Ctrl-C
-// does not reach it and all that it starts can be killed with it.
+// A folder, null streams but for the output, default signal handlers, and a process group, so that a
+// terminal's Ctrl-C does not reach it and all that it starts can be killed with it.
 class SpawnSettings {
  public:
-  explicit SpawnSettings(int output) {
+  SpawnSettings(const ChildOutput::Command& command, int output) {
     posix_spawn_file_actions_init(&actions_);
     posix_spawnattr_init(&attributes_);
+    if (!command.folder.empty()) posix_spawn_file_actions_addchdir_np(&actions_, command.folder.c_str());
     // The output first: it may have the number of a standard stream that is closed here.
     posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
     posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    if (command.with_errors)
+      posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
+    else
+      posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     sigset_t signals;
     sigfillset(&signals);
     posix_spawnattr_setsigdefault(&attributes_, &signals);
@@ -62,17 +68,18 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 
 }  // namespace
 
-ChildOutput::ChildOutput(const std::string& program, const std::vector<std::string>& arguments,
-                         const std::vector<std::string>& environment, Limits limits)
+ChildOutput::ChildOutput(const Command& command, Limits limits)
     : limits_(std::move(limits)), began_(std::chrono::steady_clock::now()), asked_(began_) {
-  std::vector<std::string> words{program}, variables = environment;
-  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> words{command.program}, variables;
+  words.insert(words.end(), command.arguments.begin(), command.arguments.end());
+  if (command.environment) variables = *command.environment;
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category());
   ::fcntl(ends[1], F_SETPIPE_SZ, pipe_capacity);
-  const SpawnSettings settings(ends[1]);
-  const int error = ::posix_spawn(&child_, program.c_str(), settings.actions(), settings.attributes(),
-                                  pointers(words).data(), pointers(variables).data());
+  const SpawnSettings settings(command, ends[1]);
+  const int error =
+      ::posix_spawnp(&child_, command.program.c_str(), settings.actions(), settings.attributes(),
+                     pointers(words).data(), command.environment ? pointers(variables).data() : environ);
   ::close(ends[1]);
   pipe_ = ends[0];
   if (error == 0) return;
@@ -83,6 +90,13 @@ ChildOutput::ChildOutput(const std::string& program, const std::vector<std::stri
 ChildOutput::~ChildOutput() {
   kill_all();
   ::close(pipe_);
+}
+
+bool ChildOutput::read_some(std::string& text) {
+  if (first_ == last_ && !fill()) return false;
+  text.append(buffer_.data() + first_, last_ - first_);
+  first_ = last_;
+  return true;
 }
 
 bool ChildOutput::read(void* to, std::size_t bytes) {
@@ -114,7 +128,11 @@ bool ChildOutput::ends_well() {
 bool ChildOutput::fill() {
   while (end_ == End::not_yet && may_go_on()) {
     pollfd place{pipe_, POLLIN, 0};
-    if (::poll(&place, 1, pause) <= 0) continue;
+    if (::poll(&place, 1, pause) <= 0) {
+      if (!has_exited()) continue;  // what it started may keep the pipe open
+      wait_for_end();
+      break;
+    }
     const auto count = ::read(pipe_, buffer_.data(), buffer_.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
@@ -131,16 +149,19 @@ bool ChildOutput::fill() {
 // It has closed its output.
 void ChildOutput::wait_for_end() {
   while (end_ == End::not_yet && may_go_on()) {
-    siginfo_t state{};
-    if (::waitid(P_PID, static_cast<id_t>(child_), &state, WEXITED | WNOHANG | WNOWAIT) < 0) {
-      if (errno != EINTR)
-        take_status(0);  // the caller ignores the ends of its children: what was read decides
-    } else if (state.si_pid == child_) {
+    if (has_exited())
       take_status(kill_all());
-    } else {
+    else
       ::poll(nullptr, 0, 1);
-    }
   }
+}
+
+// Also where the caller ignores the ends of its children, so that nothing is known: what was read decides.
+bool ChildOutput::has_exited() const {
+  siginfo_t state{};
+  if (::waitid(P_PID, static_cast<id_t>(child_), &state, WEXITED | WNOHANG | WNOWAIT) < 0)
+    return errno != EINTR;
+  return state.si_pid == child_;
 }
 
 bool ChildOutput::may_go_on() {

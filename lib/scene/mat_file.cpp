@@ -132,7 +132,7 @@ class MatFileReader {
     std::vector<std::string> arguments{path_};
     if (!name_.empty()) arguments.push_back(name_);
     try {
-      return ChildOutput(found.path, arguments, environment(), {longest_time(text_.size()), stop_});
+      return ChildOutput({found.path, arguments, environment()}, {longest_time(text_.size()), stop_});
     } catch (const std::system_error& error) {
       fail("found a MATLAB file, which is read by the program " + file::quoted(found.path) +
            ", which cannot be started: " + error.code().message());

@@ -272,7 +272,7 @@ TEST_CASE("a program that hangs is killed on request, with what it started") {
 }
 
 TEST_CASE("a program is killed at its time limit") {
-  scene::detail::ChildOutput output("/bin/sleep", {"1000"}, {}, {std::chrono::milliseconds(50)});
+  scene::detail::ChildOutput output({"/bin/sleep", {"1000"}}, {std::chrono::milliseconds(50)});
   char c = 0;
   CHECK_FALSE(output.read(&c, 1));
   CHECK(output.end() == scene::detail::ChildOutput::End::out_of_time);
