@@ -31,14 +31,14 @@ using namespace arcslip;
 
 namespace {
 
-std::string text_of(const std::string& path) {
+std::string bytes_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::string fault(const std::string& path, const std::string& variable = "K") {
+std::string fault_in(const std::string& path, const std::string& variable = "K") {
   try {
-    scene::read_mat_file(path, text_of(path), variable, "\"A.mat\"");
+    scene::read_mat_file(path, bytes_of(path), variable, "\"A.mat\"");
   } catch (const scene::MatrixError& error) {
     return error.what();
   }
@@ -111,8 +111,8 @@ TEST_CASE("a MATLAB file whose data are in another file is refused") {
   });
   const std::string told =
       "\"A.mat\", variable \"K\": found data that are in another file, must hold its data itself";
-  CHECK(fault(path) == told);
-  CHECK(fault(path, "M") == told);  // whichever is asked for
+  CHECK(fault_in(path) == told);
+  CHECK(fault_in(path, "M") == told);  // whichever is asked for
 }
 
 TEST_CASE("a MATLAB file with a link to another file is refused, which is not opened") {
@@ -123,8 +123,8 @@ TEST_CASE("a MATLAB file with a link to another file is refused, which is not op
   if (!is_fifo) write_v73(folder / "other", [](hid_t file) { H5Dclose(variable(file, "K")); });
   const std::string told = ": found a link to another file, must hold its data itself";
   write_v73(path, [&](hid_t file) { H5Lcreate_external("other", "K", file, "K", H5P_DEFAULT, H5P_DEFAULT); });
-  CHECK(fault(path) == "\"A.mat\", variable \"K\"" + told);
-  CHECK(fault(path, "M") == "\"A.mat\", variable \"K\"" + told);
+  CHECK(fault_in(path) == "\"A.mat\", variable \"K\"" + told);
+  CHECK(fault_in(path, "M") == "\"A.mat\", variable \"K\"" + told);
   // Below a group, and by a link of the file itself.
   write_v73(path, [&](hid_t file) {
     const hid_t group = H5Gcreate2(file, "S", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
@@ -132,7 +132,7 @@ TEST_CASE("a MATLAB file with a link to another file is refused, which is not op
     H5Lcreate_soft("/S/ir", file, "K", H5P_DEFAULT, H5P_DEFAULT);
     H5Gclose(group);
   });
-  CHECK(fault(path) == "\"A.mat\", variable \"S\"" + told);
+  CHECK(fault_in(path) == "\"A.mat\", variable \"S\"" + told);
 }
 
 TEST_CASE("a MATLAB file that hides a link to another file opens none") {
@@ -145,8 +145,8 @@ TEST_CASE("a MATLAB file that hides a link to another file opens none") {
     H5Lcreate_soft("/#refs#/a", file, "K", H5P_DEFAULT, H5P_DEFAULT);
     H5Gclose(group);
   });
-  CHECK(contains(fault(path), "found"));  // where the FIFO is opened, there is no end
-  CHECK(fault(path, "M") == "none");
+  CHECK(contains(fault_in(path), "found"));  // where the FIFO is opened, there is no end
+  CHECK(fault_in(path, "M") == "none");
 }
 
 TEST_CASE("a MATLAB file of a virtual dataset, or of a filter that a plugin brings, is refused") {
@@ -161,7 +161,7 @@ TEST_CASE("a MATLAB file of a virtual dataset, or of a filter that a plugin brin
     H5Sclose(space);
     H5Pclose(creation);
   });
-  CHECK(contains(fault(path), "variable \"K\": found data that are in another file"));
+  CHECK(contains(fault_in(path), "variable \"K\": found data that are in another file"));
   write_v73(path, [&](hid_t file) {
     const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
     const std::array<hsize_t, 2> chunk{4, 4};
@@ -170,7 +170,7 @@ TEST_CASE("a MATLAB file of a virtual dataset, or of a filter that a plugin brin
     H5Dclose(variable(file, "K", creation));
     H5Pclose(creation);
   });
-  CHECK(contains(fault(path),
+  CHECK(contains(fault_in(path),
                  "variable \"K\": found data of the HDF5 filter 32000, must have none but deflate"));
 }
 
@@ -190,7 +190,7 @@ TEST_CASE("links and compression within a MATLAB file are followed") {
     H5Pclose(creation);
     H5Lcreate_hard(file, "L", file, "K", H5P_DEFAULT, H5P_DEFAULT);
   });
-  const scene::SparseMatrix K = scene::read_mat_file(path, text_of(path), "K", "\"A.mat\"");
+  const scene::SparseMatrix K = scene::read_mat_file(path, bytes_of(path), "K", "\"A.mat\"");
   CHECK(K.row_of == std::vector<int>{0, 1, 2, 3});
   CHECK(K.values == std::vector<double>(4, 1.0));
 }
@@ -202,7 +202,7 @@ TEST_CASE("sizes beyond what a short MATLAB file can hold take no memory and no 
   const auto of = [&](const std::string& text) {
     folder.write("A.mat", text);
     REQUIRE(text.size() < 1000);
-    return fault(path);
+    return fault_in(path);
   };
   const auto both = [&](const std::string& body, std::uint32_t told, const std::string& wanted) {
     CAPTURE(wanted);
@@ -247,6 +247,6 @@ TEST_CASE("sizes beyond what a short MATLAB file can hold take no memory and no 
 TEST_CASE("a MATLAB file that is damaged where HDF5 does not look ends no program but that which reads it") {
   for (const std::string name : {"damaged_accumulator.mat", "damaged_chunk.mat"}) {
     CAPTURE(name);
-    CHECK(contains(fault(source_folder() + "/tests/lib/scene/" + name), "may be damaged"));
+    CHECK(contains(fault_in(source_folder() + "/tests/lib/scene/" + name), "may be damaged"));
   }
 }
