@@ -161,7 +161,9 @@ void CsvSummary::begin(const Header& /*header*/, std::span<const Schema> schemas
 
 void CsvSummary::put(const std::string& title, std::string cell) {
   add(title, titles_);
-  rows_.back()[title] = std::move(cell);
+  row_.resize(titles_.size());
+  row_[static_cast<std::size_t>(std::find(titles_.begin(), titles_.end(), title) - titles_.begin())] =
+      std::move(cell);
 }
 
 void CsvSummary::put(const std::string& prefix, const Object& facts) {
@@ -176,7 +178,7 @@ void CsvSummary::put(const std::string& prefix, const Object& facts) {
 }
 
 void CsvSummary::curve(const Head& head, std::size_t schema) {
-  rows_.emplace_back();
+  row_.clear();
   put("study", text_field(head.study));
   put("kind", text_field(head.kind));
   put("", head.set);
@@ -192,20 +194,17 @@ void CsvSummary::end(const End& end) {
   put("stop.", end.stop);
   if (!end.doubt.empty()) put("doubt", text_field(end.doubt));
   put("", end.facts);
+  Line& line = lines_.emplace_back(Line{{}, row_.size()});
+  const char* separator = "";
+  for (const std::string& cell : row_) line.text.append(std::exchange(separator, ",")).append(cell);
 }
 
 void CsvSummary::finish() {
   const char* separator = "";
   for (const std::string& each : titles_) out_ << std::exchange(separator, ",") << text_field(each);
   out_ << "\r\n";
-  for (const Row& row : rows_) {
-    separator = "";
-    for (const std::string& each : titles_) {
-      const auto found = row.find(each);
-      out_ << std::exchange(separator, ",") << (found == row.end() ? "" : found->second);
-    }
-    out_ << "\r\n";
-  }
+  for (const Line& line : lines_)
+    out_ << line.text << std::string(titles_.size() - line.cells, ',') << "\r\n";
 }
 
 std::vector<std::string> table_keys(std::span<const Schema> schemas) {

@@ -51,8 +51,6 @@ class CsvSummary : public Sink {
   void finish() override;
 
  private:
-  using Row = std::map<std::string, std::string>;  // cells by titles
-
   void put(const std::string& title, std::string cell);
   void put(const std::string& prefix, const Object& facts);
 
@@ -60,7 +58,12 @@ class CsvSummary : public Sink {
   std::vector<Schema> schemas_;
   std::map<std::string, long> count_;
   std::vector<std::string> titles_;  // in the order in which they came
-  std::vector<Row> rows_;
+  std::vector<std::string> row_;     // of the result that is open, by titles
+  struct Line {
+    std::string text;  // of the cells whose titles had come
+    std::size_t cells;
+  };
+  std::vector<Line> lines_;
 };
 
 /// Of all tables, each once.
