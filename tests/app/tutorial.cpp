@@ -62,7 +62,7 @@ std::string run_command(const Workplace& place, const std::string& line) {
   return ended.err + ended.out;
 }
 
-std::string replaced(std::string text, const std::string& piece, const std::string& by) {
+std::string with_piece_replaced(std::string text, const std::string& piece, const std::string& by) {
   REQUIRE(text.find(piece) != std::string::npos);
   return text.replace(text.find(piece), piece.size(), by);
 }
@@ -105,8 +105,9 @@ TEST_CASE("the commands of the tutorial print what it shows") {
         if (without_blanks(line).starts_with("arcslip "))
           output = output.value_or("") + run_command(place, line);
     } else if (!block.lines.empty() && block.lines.front().starts_with("bad.json")) {
-      place.write("bad.json", replaced(replaced(scene, "\"normal_load\"", "\"normal_laod\""),
-                                       "\"value\": 2.0}]\n  },", "\"value\": -2}]\n  },"));
+      place.write("bad.json",
+                  with_piece_replaced(with_piece_replaced(scene, "\"normal_load\"", "\"normal_laod\""),
+                                      "\"value\": 2.0}]\n  },", "\"value\": -2}]\n  },"));
       check_output(block, run_command(place, "arcslip check bad.json"));
       ++compared;
     } else if (output) {
