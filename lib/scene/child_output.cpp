@@ -167,12 +167,12 @@ bool ChildOutput::has_exited() const {
 bool ChildOutput::may_go_on() {
   const auto now = std::chrono::steady_clock::now();
   if (now - began_ > limits_.time) {
-    kill_all();
+    take_status(kill_all());
     end_ = End::out_of_time;
   } else if (now - asked_ > std::chrono::milliseconds(pause)) {
     asked_ = now;
     if (!is_asked(limits_.stop)) return true;
-    kill_all();
+    take_status(kill_all());
     end_ = End::stopped;
   }
   return end_ == End::not_yet;
