@@ -93,14 +93,19 @@ void ResultsFolder::begin_set(FileSet set) {
   set.complete = false;
   std::error_code error;
   for (FileSet::File& file : set.files) {
-    if (const FileSet::File* before = known(file.name))
-      file.hash = before->hash == of_others ? of_others : "";
-    else if (fs::exists(fs::symlink_status(fs::path(folder_) / file.name, error)))
-      file.hash = of_others;
+    const fs::path path = fs::path(folder_) / file.name;
+    if (!fs::exists(fs::symlink_status(path, error))) continue;
+    const FileSet::File* before = known(file.name);
+    const bool is_ours =
+        before != nullptr && !before->hash.empty() && before->hash == scene::file_hash(path.string());
+    file.hash = is_ours ? before->hash : of_others;
   }
-  if (const FileSet* before = manifest_.find(set.name))
+  before_.reset();
+  if (const FileSet* before = manifest_.find(set.name)) {
+    before_ = *before;
     for (const FileSet::File& file : before->files)
       if (file_named(set.files, file.name) == set.files.end()) set.files.push_back(file);
+  }
   std::erase_if(manifest_.sets, [&](const FileSet& other) { return other.name == set.name; });
   for (FileSet& other : manifest_.sets)
     std::erase_if(other.files, [&](const FileSet::File& file) {
@@ -108,6 +113,7 @@ void ResultsFolder::begin_set(FileSet set) {
     });
   manifest_.sets.push_back(std::move(set));
   write();
+  ::fsync(descriptor_);  // before any of the files is replaced
 }
 
 bool ResultsFolder::remove(const FileSet::File& file) const {
@@ -121,9 +127,15 @@ bool ResultsFolder::remove(const FileSet::File& file) const {
 std::vector<std::string> ResultsFolder::end_set(const std::string& name, std::span<const std::string> written,
                                                 bool complete) {
   FileSet& set = *manifest_.find(name);
+  if (!complete && written.empty() && before_) {  // nothing was replaced
+    set = *before_;
+    write();
+    return {};
+  }
   std::vector<FileSet::File> files;
   for (const std::string& path : written)
-    files.push_back({fs::path(path).filename().string(), scene::file_hash(path)});
+    if (const std::string hash = scene::file_hash(path); !hash.empty())  // no pipes and devices
+      files.push_back({fs::path(path).filename().string(), hash});
   std::vector<std::string> removed;
   for (const FileSet::File& file : set.files) {
     if (file_named(files, file.name) != files.end()) continue;
@@ -134,6 +146,7 @@ std::vector<std::string> ResultsFolder::end_set(const std::string& name, std::sp
   }
   set.files = std::move(files);
   set.complete = complete;
+  ::fsync(descriptor_);  // all files have their names
   write();
   return removed;
 }

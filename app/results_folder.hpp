@@ -11,7 +11,7 @@
 
 namespace arcslip::app {
 
-/// The files that a scene reads: its own, and those that it names.
+/// Returns the files that a scene reads: its own, and those that it names.
 std::vector<std::string> sources_of(const scene::Scene& scene, const std::string& scene_file);
 
 /// A folder of results with its manifest (scene/manifest.hpp), locked for one run at a time: created with its
@@ -49,6 +49,7 @@ class ResultsFolder {
   std::string folder_;
   std::vector<std::string> sources_;
   scene::Manifest manifest_;
+  std::optional<scene::FileSet> before_;  // the set that is being written, as it was
   int descriptor_ = -1;
 };
 

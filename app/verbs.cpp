@@ -162,7 +162,10 @@ std::vector<std::string> write_set(ResultsFolder& folder, const StudyFiles& file
   names.push_back(std::filesystem::path(files.path(".scene.json")).filename().string());
   for (std::string& name : names) set.files.push_back({std::move(name)});
   const std::size_t missing = writing.failures();
-  writing.attempt("the manifest", [&] { folder.begin_set(set); });
+  if (!writing.attempt("the manifest", [&] { folder.begin_set(set); })) {
+    writing.misses("all files of " + results::visible(files.path("")));
+    return {};
+  }
   std::vector<std::string> written = write_scene(files, scene, writing);
   DrawnFigures drawn;
   const std::vector<std::string> tables = open.commit(writing);
@@ -308,7 +311,8 @@ ExitCode reduce(const scene::Scene& scene, const CommandOptions& options) {
   const std::vector<std::string> sources = sources_of(scene, options.scene);
   ResultsFolder held(folder.string(), sources);
   std::vector<OutputPath> places = {{"the manifest of the folder", held.manifest_path()}};
-  scene::FileSet set{"reduced", "arcslip " + std::string(results::version()), scene::hash(scene), false, {}};
+  scene::FileSet set{
+      "the reduced structure", "arcslip " + std::string(results::version()), scene::hash(scene), false, {}};
   for (const auto& [name, text] : reduced.files) {
     places.push_back({"the reduced structure", (folder / name).string()});
     set.files.push_back({name});
@@ -318,7 +322,7 @@ ExitCode reduce(const scene::Scene& scene, const CommandOptions& options) {
   Writing writing;
   std::ostringstream written;
   std::vector<std::string> paths;
-  writing.attempt("the manifest", [&] { held.begin_set(set); });
+  if (!writing.attempt("the manifest", [&] { held.begin_set(set); })) return writing.code(ExitCode::done);
   for (std::size_t i = 0; i < places.size(); ++i)
     if (writing.attempt(results::visible(places[i].path), [&] {
           output::write_file(

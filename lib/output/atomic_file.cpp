@@ -176,11 +176,15 @@ void AtomicFile::Target::commit() {
       temporary = name;
     }
   }
-  if (owns_descriptor && ::close(std::exchange(descriptor, -1)) != 0) fail(path, errno);
-  if (!final_name.empty()) {
-    if (std::rename(temporary.c_str(), final_name.c_str()) != 0) fail(path, errno);
-    temporary.clear();
-  }
+  const int lock =
+      final_name.empty() ? -1 : ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);  // held until it has its name
+  const int closed = owns_descriptor ? ::close(std::exchange(descriptor, -1)) : 0;
+  const int renamed =
+      closed == 0 && !final_name.empty() ? std::rename(temporary.c_str(), final_name.c_str()) : 0;
+  const int error = errno;
+  if (lock >= 0) ::close(lock);
+  if (closed != 0 || renamed != 0) fail(path, error);
+  if (!final_name.empty()) temporary.clear();
 }
 
 AtomicFile::Target::~Target() {
@@ -260,7 +264,11 @@ void clear_temporaries(const std::string& folder) {
   for (const auto& path : paths) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (descriptor < 0) continue;
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0)  // its writer would hold a lock
+    struct stat locked {
+    }, there{};
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 &&  // its writer would hold a lock
+        ::fstat(descriptor, &locked) == 0 && ::lstat(path.c_str(), &there) == 0 &&
+        locked.st_ino == there.st_ino && locked.st_dev == there.st_dev)
       std::filesystem::remove(path, error);
     ::close(descriptor);
   }

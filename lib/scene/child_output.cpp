@@ -129,9 +129,12 @@ bool ChildOutput::fill() {
   while (end_ == End::not_yet && may_go_on()) {
     pollfd place{pipe_, POLLIN, 0};
     if (::poll(&place, 1, pause) <= 0) {
-      if (!has_exited()) continue;  // what it started may keep the pipe open
-      wait_for_end();
-      break;
+      if (!has_exited()) continue;
+      // What it started may keep the pipe open; what it wrote before its end is there.
+      if (::poll(&place, 1, 0) <= 0) {
+        wait_for_end();
+        break;
+      }
     }
     const auto count = ::read(pipe_, buffer_.data(), buffer_.size());
     if (count < 0 && errno == EINTR) continue;
@@ -157,11 +160,14 @@ void ChildOutput::wait_for_end() {
 }
 
 // Also where the caller ignores the ends of its children, so that nothing is known: what was read decides.
-bool ChildOutput::has_exited() const {
+bool ChildOutput::has_exited() {
+  if (child_ < 0) return true;
   siginfo_t state{};
-  if (::waitid(P_PID, static_cast<id_t>(child_), &state, WEXITED | WNOHANG | WNOWAIT) < 0)
-    return errno != EINTR;
-  return state.si_pid == child_;
+  if (::waitid(P_PID, static_cast<id_t>(child_), &state, WEXITED | WNOHANG | WNOWAIT) == 0)
+    return state.si_pid == child_;
+  if (errno == EINTR) return false;
+  child_ = -1;
+  return true;
 }
 
 bool ChildOutput::may_go_on() {

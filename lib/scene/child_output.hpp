@@ -56,7 +56,7 @@ class ChildOutput {
  private:
   bool fill();
   bool may_go_on();
-  bool has_exited() const;
+  bool has_exited();
   int kill_all();
   void wait_for_end();
   void take_status(int status);

@@ -118,17 +118,19 @@ Manifest read_manifest(const std::string& folder) {
   const std::string path = (fs::path(folder) / manifest_name).string();
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path, error))) return {};
-  try {
-    if (fs::is_regular_file(path, error))
-      if (std::optional<Manifest> manifest =
-              read(file::read_tree(file::read_text(path, {}, "manifest", largest))))
-        return std::move(*manifest);
-  } catch (const SceneError&) {
+  if (fs::is_regular_file(path, error)) {
+    const std::string text = file::read_text(path, {}, "manifest", largest);
+    try {
+      if (std::optional<Manifest> manifest = read(file::read_tree(text))) return std::move(*manifest);
+    } catch (const SceneError&) {  // no JSON
+    }
   }
   throw FileError(results::visible(path) + " is no manifest of Arcslip, or is damaged: move it away");
 }
 
 std::string file_hash(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return "";
   std::ifstream in(path, std::ios::binary);
   ContentHash hash;
   std::string chunk(1 << 16, '\0');
@@ -164,7 +166,8 @@ ManifestDoubts manifest_doubts(const Scene& scene, const std::string& file) {
         }
         ContentHash hash;
         if (text != nullptr) hash.add(*text);
-        if (each.hash != (text != nullptr ? hash.text() : file_hash(path.string())))
+        const std::string now = text != nullptr ? hash.text() : file_hash(path.string());
+        if (!now.empty() && each.hash != now)
           doubts.changed.push_back(results::visible(path.string()) +
                                    " has changed since it was written with the other " + "files of the set " +
                                    as_text(set) + " of " +

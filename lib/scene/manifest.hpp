@@ -45,10 +45,11 @@ struct Manifest {
   std::string text() const;
 };
 
-/// The manifest of a folder; without sets where there is none. Throws FileError if it is damaged.
+/// Reads the manifest of a folder; without sets where there is none. Throws FileError if it is damaged or
+/// cannot be read.
 Manifest read_manifest(const std::string& folder);
 
-/// The hash of a file's content; "" if it cannot be read.
+/// Returns the hash of a file's content; "" if it cannot be read, or is a pipe or a device.
 std::string file_hash(const std::string& path);
 
 /// Files that a scene reads and that differ from what the manifest next to them says, in sentences for the

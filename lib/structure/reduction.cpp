@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <random>
@@ -46,10 +47,13 @@ void listen(const scene::StopRequest& stop) {
 constexpr std::size_t memory_of_blas = std::size_t{168} << 20;  // bytes
 
 void require_memory_of_blas() {
-  void* const memory = ::mmap(nullptr, memory_of_blas, PROT_READ | PROT_WRITE,
-                              MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (memory == MAP_FAILED) throw std::bad_alloc();
-  ::munmap(memory, memory_of_blas);
+  static std::once_flag known;
+  std::call_once(known, [] {
+    void* const memory = ::mmap(nullptr, memory_of_blas, PROT_READ | PROT_WRITE,
+                                MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    ::munmap(memory, memory_of_blas);
+  });
 }
 
 class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse> {

@@ -14,11 +14,17 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <set>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <sys/file.h>
+#include <sys/stat.h>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -50,7 +56,6 @@ void write_matrices(const Workplace& place, double stiffness) {
   place.write("mesh/K.mtx", head + "1 1 " + std::to_string(stiffness) + "\n2 2 9000\n2 1 -3000\n");
   place.write("mesh/M.mtx", head + "1 1 1\n2 2 2\n2 1 0.1\n");
   place.write("mesh/names.csv", "name,row\ntip,1\nroot,2\n");
-  place.write("mesh/loads.csv", "d.normal_load\n1\n2\n");
   place.write("solid.json", R"({"format": "arcslip-scene-1", "structure": {
     "matrices": {"mass": "mesh/M.mtx", "stiffness": "mesh/K.mtx", "highest_frequency": 30}, "names": "mesh/names.csv",
     "dampers": [{"name": "c", "at": "tip", "value": 1}]},
@@ -172,7 +177,6 @@ TEST_CASE("only files that the manifest names, unchanged, are removed") {
   // Files that a later run has no counterpart of go; those that were changed meanwhile stay.
   const auto has = [&](const char* name) { return fs::exists(place / name); };
   REQUIRE(has("o/one.events.csv"));
-  place.write("o/one.gp", place.read("o/one.gp") + "# mine\n");
   Json other = one_mass(1);
   other["studies"] = {{{"name", "one"}, {"kind", "time"}, {"frequency", 10}}};
   place.write("scene.json", other.dump());
@@ -180,6 +184,13 @@ TEST_CASE("only files that the manifest names, unchanged, are removed") {
   CHECK_FALSE(has("o/one.events.csv"));
   CHECK(has("o/one.csv"));
   CHECK(sets_of(place, "o").size() == 1);
+  place.write("scene.json", one_mass(1).dump());
+  REQUIRE(run_it().exit_code == 0);
+  const std::string edited = place.read("o/one.events.csv") + "mine\n";
+  place.write("o/one.events.csv", edited);
+  place.write("scene.json", other.dump());
+  REQUIRE(run_it().exit_code == 0);
+  CHECK(place.read("o/one.events.csv") == edited);
 
   // Another study's files are not of this one.
   place.write("scene.json", one_mass(1).dump());
@@ -206,6 +217,52 @@ TEST_CASE("only files that the manifest names, unchanged, are removed") {
         std::string::npos);
     CHECK(place.read(std::string("o/") + manifest) == text);
   }
+}
+
+TEST_CASE("a figure that the user changed stays where it cannot be drawn anew") {
+  const Workplace place;
+  place.write("scene.json", one_mass(1).dump());
+  fs::create_directory(place / "bin");
+  // As gnuplot would: what its script sets, with the suffix of its command line.
+  place.write("bin/gnuplot", R"(#!/bin/sh
+    suffix=$(printf %s "$3" | sed "s/suffix='\(.*\)'/\1/")
+    for image in $(sed -n "s/^set output '\(.*\)'.suffix$/\1/p" "$4"); do
+      case $image in *.svg) echo '</svg>' ;; *) echo IEND ;; esac > "$image$suffix"
+    done)");
+  fs::permissions(place / "bin/gnuplot", fs::perms::owner_all);
+  REQUIRE(
+      run(place, {"run", "scene.json", "--out", "o"}, {{"PATH", (place / "bin").string() + ":/usr/bin:/bin"}})
+          .exit_code == 0);
+  REQUIRE(fs::exists(place / "o/one_stick.svg"));
+  place.write("o/one_amplitude.svg", "<svg>mine</svg>");
+  REQUIRE(run(place, {"run", "scene.json", "--out", "o"}, no_gnuplot).exit_code == 0);
+  CHECK(place.read("o/one_amplitude.svg") == "<svg>mine</svg>");
+  CHECK_FALSE(fs::exists(place / "o/one_stick.svg"));
+}
+
+TEST_CASE("a pipe and a link to a device in a folder of results are written once and not read") {
+  const Workplace place;
+  place.write("scene.json", one_mass(1).dump());
+  fs::create_directory(place / "o");
+  REQUIRE(::mkfifo((place / "o/one.csv").c_str(), 0600) == 0);
+  fs::create_symlink("/dev/zero", place / "o/one.json");
+  const std::string command = "cd '" + place.path() +
+                              "' && { cat o/one.csv > x & timeout 60 env PATH=/nonexistent '" +
+                              arcslip_program() + "' run scene.json --out o --quiet; echo $? > code; wait; }";
+  CHECK(std::system(command.c_str()) == 0);
+  CHECK(place.read("code") == "0\n");
+  CHECK(place.read("x").starts_with("study,"));
+}
+
+TEST_CASE("a study called reduced and a reduced structure keep apart in one folder") {
+  const Workplace place;
+  write_matrices(place, 4000);
+  REQUIRE(run(place, {"reduce", "solid.json", "--out", "r", "--quiet"}).exit_code == 0);
+  Json scene = one_mass(1);
+  scene["studies"][0]["name"] = "reduced";
+  place.write("scene.json", scene.dump());
+  REQUIRE(run(place, {"run", "scene.json", "--out", "r"}, no_gnuplot).exit_code == 0);
+  for (const char* file : {"r/K.mtx", "r/M.mtx", "r/names.csv"}) CHECK(fs::exists(place / file));
 }
 
 TEST_CASE("a study named like the manifest does not replace it") {
@@ -267,7 +324,8 @@ TEST_CASE("a scene of an interrupted set is refused, and one that was changed si
   const Ended changed = run(place, {"check", "r/reduced.json", "--quiet"});
   CHECK(changed.exit_code == 0);
   CHECK(changed.err ==
-        "arcslip: r/K.mtx has changed since it was written with the other files of the set \"reduced\" of "
+        "arcslip: r/K.mtx has changed since it was written with the other files of the set \"the reduced "
+        "structure\" of "
         "r/arcslip-manifest.json\n");
   place.write("r/K.mtx", stiffness);
 
@@ -276,9 +334,9 @@ TEST_CASE("a scene of an interrupted set is refused, and one that was changed si
   place.write(std::string("r/") + manifest, json.dump());
   const Ended refused = run(place, {"check", "r/reduced.json", "--quiet"});
   CHECK(refused.exit_code == 2);
-  CHECK(refused.err.find(
-            "r/reduced.json is of the set \"reduced\" of r/arcslip-manifest.json, whose writing was "
-            "interrupted: its files may be of two scenes") != std::string::npos);
+  CHECK(refused.err.find("r/reduced.json is of the set \"the reduced structure\" of r/arcslip-manifest.json, "
+                         "whose writing was "
+                         "interrupted: its files may be of two scenes") != std::string::npos);
   // Written again, they belong together.
   CHECK(run(place, {"reduce", "solid.json", "--out", "r", "--quiet"}).exit_code == 0);
   CHECK(run(place, {"check", "r/reduced.json", "--quiet"}).exit_code == 0);
