@@ -46,7 +46,7 @@ File json_file(const std::string& path);
 /// device.
 std::vector<File> csv_files(const std::string& path, std::span<const results::Schema> schemas);
 
-/// Tables next to `path` from earlier results, which these have no counterpart of.
+/// Returns tables next to `path` from earlier results, which these have no counterpart of.
 std::vector<std::string> older_tables(const std::string& path, std::span<const results::Schema> schemas);
 
 /// Writes collected results.
@@ -89,7 +89,7 @@ class Writing {
 /// Writes the resolved scene next to the results of its study. Returns its path, if written.
 std::vector<std::string> write_scene(const StudyFiles& files, const scene::Scene& scene, Writing& writing);
 
-/// The names of all files that write_figures() may write.
+/// Returns the names of all files that write_figures() may write.
 std::vector<std::string> figure_names(const StudyFiles& files,
                                       const std::vector<results::FigureData>& figures);
 

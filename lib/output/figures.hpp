@@ -23,7 +23,7 @@ struct Figures {
 Figures draw_figures(const results::FigureData& data, const std::string& folder, const std::string& name,
                      const scene::StopRequest& stop = {});
 
-/// The names of all files that draw_figures() may write to its folder, temporary ones among them.
+/// Returns the names of all files that draw_figures() may write to its folder, temporary ones among them.
 std::vector<std::string> figure_files(const results::FigureData& data, const std::string& name);
 
 /// A file name for any name: characters other than letters, digits, '_', '-' and an inner '.' become '_'.

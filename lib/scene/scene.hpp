@@ -196,8 +196,8 @@ inline constexpr std::size_t largest_count =
 /// Reads format "arcslip-scene-1". catalogue: the laws of force and the kinds of studies that it may hold, as
 /// studies::catalogue(). folder: base of its relative paths. Throws SceneError with every fault found.
 Scene read(std::istream& in, const Catalogue& catalogue, const std::string& folder = {});
-/// The same from a file, with its folder. Throws FileError if the file cannot be read; a file whose writing was interrupted
-/// by the manifest next to it (manifest.hpp) is a fault.
+/// The same from a file, with its folder. Throws FileError if the file cannot be read, and SceneError for a
+/// file whose writing was interrupted, according to the manifest next to it (manifest.hpp).
 Scene read_file(const std::string& path, const Catalogue& catalogue);
 
 /// The resolved scene with every default, in the same format: read(write(s)) gives s again.

@@ -1,6 +1,6 @@
 #pragma once
-// Lagrange multipliers at a minimum of V (load_cases.hpp): m_ck >= 0 of the active peaks, those with the highest
-// w_c A_ck of their group g, and n_i >= 0 of the active limits c_i(p) <= 0, including bounds,
+// Lagrange multipliers at a minimum of V (load_cases.hpp): m_ck >= 0 of the active peaks, those with the
+// highest w_c A_ck of their group g, and n_i >= 0 of the active limits c_i(p) <= 0, including bounds,
 //
 //   minimize |sum of m_ck d ln A_ck / dy + sum of n_i dc_i / dy|
 //   such that the m_ck of group g add up to its share of V
