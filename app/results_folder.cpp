@@ -100,12 +100,13 @@ void ResultsFolder::begin_set(FileSet set) {
         before != nullptr && !before->hash.empty() && before->hash == scene::file_hash(path.string());
     file.hash = is_ours ? before->hash : of_others;
   }
-  before_.reset();
-  if (const FileSet* before = manifest_.find(set.name)) {
-    before_ = *before;
-    for (const FileSet::File& file : before->files)
-      if (file_named(set.files, file.name) == set.files.end()) set.files.push_back(file);
-  }
+  if (const FileSet* before = manifest_.find(set.name))
+    for (FileSet::File file : before->files) {
+      if (file_named(set.files, file.name) != set.files.end()) continue;
+      // Of a killed run, which need not have written it: an image that was being drawn is nobody else's.
+      if (file.hash.empty() && !file.name.ends_with(".tmp")) file.hash = of_others;
+      set.files.push_back(std::move(file));
+    }
   std::erase_if(manifest_.sets, [&](const FileSet& other) { return other.name == set.name; });
   for (FileSet& other : manifest_.sets)
     std::erase_if(other.files, [&](const FileSet::File& file) {
@@ -127,11 +128,6 @@ bool ResultsFolder::remove(const FileSet::File& file) const {
 std::vector<std::string> ResultsFolder::end_set(const std::string& name, std::span<const std::string> written,
                                                 bool complete) {
   FileSet& set = *manifest_.find(name);
-  if (!complete && written.empty() && before_) {  // nothing was replaced
-    set = *before_;
-    write();
-    return {};
-  }
   std::vector<FileSet::File> files;
   for (const std::string& path : written)
     if (const std::string hash = scene::file_hash(path); !hash.empty())  // no pipes and devices

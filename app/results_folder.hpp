@@ -3,7 +3,6 @@
 #include <arcslip/scene/manifest.hpp>
 #include <arcslip/scene/scene.hpp>
 
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -49,7 +48,6 @@ class ResultsFolder {
   std::string folder_;
   std::vector<std::string> sources_;
   scene::Manifest manifest_;
-  std::optional<scene::FileSet> before_;  // the set that is being written, as it was
   int descriptor_ = -1;
 };
 

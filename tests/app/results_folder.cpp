@@ -240,6 +240,23 @@ TEST_CASE("a figure that the user changed stays where it cannot be drawn anew") 
   CHECK_FALSE(fs::exists(place / "o/one_stick.svg"));
 }
 
+TEST_CASE("what a killed run only meant to write is not removed") {
+  const Workplace place;
+  place.write("scene.json", one_mass(1).dump());
+  REQUIRE(run(place, {"run", "scene.json", "--out", "o"}, no_gnuplot).exit_code == 0);
+  Json json = Json::parse(place.read(std::string("o/") + manifest));
+  json["sets"][0]["complete"] = false;
+  json["sets"][0]["files"]["one_other.svg"] = nullptr;
+  json["sets"][0]["files"]["one_other.svg.4711.tmp"] = nullptr;
+  place.write(std::string("o/") + manifest, json.dump());
+  place.write("o/one_other.svg", "mine");
+  place.write("o/one_other.svg.4711.tmp", "half an image");
+  REQUIRE(run(place, {"run", "scene.json", "--out", "o"}, no_gnuplot).exit_code == 0);
+  CHECK(place.read("o/one_other.svg") == "mine");
+  CHECK_FALSE(fs::exists(place / "o/one_other.svg.4711.tmp"));
+  CHECK(sets_of(place, "o")[0]["complete"] == true);
+}
+
 TEST_CASE("a pipe and a link to a device in a folder of results are written once and not read") {
   const Workplace place;
   place.write("scene.json", one_mass(1).dump());
