@@ -11,6 +11,7 @@
 
 #include <arcslip/model/reduced_scene.hpp>
 #include <arcslip/observables/prepare.hpp>
+#include <arcslip/observables/resonances.hpp>
 #include <arcslip/output/atomic_file.hpp>
 #include <arcslip/results/progress.hpp>
 #include <arcslip/results/table_writer.hpp>
@@ -292,6 +293,8 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
 ExitCode check(const scene::Scene& scene, const CommandOptions& options) {
   tell_beyond_reduction(scene, scene.studies);
   if (!options.quiet) {
+    if (const std::string text = observables::text_of_resonances(scene, interrupted); !text.empty())
+      tell(text);
     StandardOutput screen;
     screen.write_lines([&](std::ostream& out) { out << scene::write(scene); });
     screen.finish();

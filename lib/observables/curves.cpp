@@ -4,6 +4,7 @@
 #include <arcslip/observables/curve_parts.hpp>
 #include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/resonances.hpp>
 #include <arcslip/observables/special_curve.hpp>
 #include <arcslip/observables/study_branches.hpp>
 
@@ -67,7 +68,8 @@ class Curves {
       return branches;
     }
     if (branches.empty()) {
-      const std::string& why = failure_.empty() ? unbounded_ : failure_;
+      const std::string why =
+          failure_.empty() ? unbounded_.empty() ? where_resonances_lie() : unbounded_ : failure_;
       branches.push_back(parts_.failed(
           way_.from, "no " + what() + " was found at " + way_.name + " = " + to_digits(way_.from, 8) +
                          ", nor up to " + to_digits(way_.to, 8) + ", between " +
@@ -89,6 +91,12 @@ class Curves {
   };
 
   std::string what() const { return kinds_.size() > 1 ? "bifurcation" : words_of(kinds_.front()); }
+
+  std::string where_resonances_lie() const {
+    Vector p = model::defaults(*way_.model);
+    p[way_.index] = way_.from;
+    return text_of(resonances(*way_.model, p), window_, unit_);
+  }
 
   // Reports progress and checks for a stop, also between points, with the numbers of the last one.
   bool go_on() {

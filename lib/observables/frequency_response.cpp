@@ -4,6 +4,7 @@
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/refined_parts.hpp>
+#include <arcslip/observables/resonances.hpp>
 #include <arcslip/observables/shooting_response.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
@@ -54,9 +55,12 @@ class Sweep {
       if (last.stop.reason != reasons::unbounded || !(far_side_ < upper_)) break;
       from = far_side_;
     }
-    if (all_) return all_branches(std::move(pieces), following());
     std::vector<ResponseBranch> branches;
-    for (TracedBranch& piece : pieces) branches.push_back(std::move(piece.response));
+    if (all_)
+      branches = all_branches(std::move(pieces), following());
+    else
+      for (TracedBranch& piece : pieces) branches.push_back(std::move(piece.response));
+    tell_missing_peak(*model_, {lower_, upper_}, frequency_unit_, branches);
     return branches;
   }
 
@@ -69,7 +73,9 @@ class Sweep {
       return problem ? trace_part(problem, branch, part) : std::nullopt;
     });
     if (!all) return {};
-    return RefinedResponse{{std::move(all->branch)}, all->change};
+    RefinedResponse found{{std::move(all->branch)}, all->change};
+    tell_missing_peak(*model_, {lower_, upper_}, frequency_unit_, found.branches);
+    return found;
   }
 
  private:

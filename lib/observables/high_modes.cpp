@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -16,21 +17,30 @@ using continuation::Vector;
 using model::LinearKind;
 
 constexpr int most_dofs_for_modes = 200;  // of which all modes are computed
-constexpr double with_mass = 1e-12;       // of the largest 1/(omega^2 + shift): others are massless
+constexpr int most_dofs_at_rest = 1000;
+constexpr double rigid_body = 1e-10;  // v^T K v over the terms that it is made of
+constexpr double at_node = 1e-9;      // r . v or f . v over the largest that it might be
+constexpr double rigid_link = 1e6;    // of the largest stiffness: a contact that gives no way at all
+constexpr double with_mass = 1e-12;   // of the largest 1/(omega^2 + shift): others are massless
+
+// The stiffness that an element has as a spring along its direction i, N/m.
+using Spring = std::function<double(std::size_t element, std::size_t i)>;
+
+Spring springs_within(const model::Model& model, const Vector& p, std::vector<double> motions) {
+  return [&model, &p, motions = std::move(motions)](std::size_t e, std::size_t i) {
+    const auto& element = model.elements[e];
+    const double reach = e < motions.size() ? motions[e] : 0;
+    return element.law->stiffness(element.fields(p), static_cast<int>(i), reach);
+  };
+}
 
 // Symmetric, with the stiffnesses of the elements.
-Eigen::MatrixXd whole_stiffness(const model::Model& model, const Vector& p,
-                                const std::vector<double>& motions) {
+Eigen::MatrixXd whole_stiffness(const model::Model& model, const Vector& p, const Spring& spring) {
   Eigen::MatrixXd K = model::sum_of(model, model::LinearKind::spring, p);
   if (!model::is_symmetric(model)) K = 0.5 * (K + K.transpose()).eval();
-  for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    const auto& element = model.elements[e];
-    for (std::size_t i = 0; i < element.directions.size(); ++i) {
-      const double reach = e < motions.size() ? motions[e] : 0;
-      const double stiffness = element.law->stiffness(element.fields(p), static_cast<int>(i), reach);
-      model::add_outer(stiffness, element.directions[i], K);
-    }
-  }
+  for (std::size_t e = 0; e < model.elements.size(); ++e)
+    for (std::size_t i = 0; i < model.elements[e].directions.size(); ++i)
+      model::add_outer(spring(e, i), model.elements[e].directions[i], K);
   return K;
 }
 
@@ -93,21 +103,18 @@ double highest_square(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const 
 }
 
 // Stiffnesses of the elements, in the wave of a diameter.
-void add_elements(const model::Model& model, const Vector& p, const std::vector<double>& motions,
-                  int diameter, Eigen::MatrixXd& K) {
+void add_elements(const model::Model& model, const Spring& spring, int diameter, Eigen::MatrixXd& K) {
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const auto& element = model.elements[e];
     for (std::size_t i = 0; i < element.directions.size(); ++i)
-      model::add_outer(
-          element.law->stiffness(element.fields(p), static_cast<int>(i), e < motions.size() ? motions[e] : 0),
-          element.directions[i], element.next.empty() ? model::Direction() : element.next[i],
-          turn(*model.sector, diameter), K);
+      model::add_outer(spring(e, i), element.directions[i],
+                       element.next.empty() ? model::Direction() : element.next[i],
+                       turn(*model.sector, diameter), K);
   }
 }
 
 // Of a sector of a ring in the waves of all its harmonics, in real and imaginary parts.
-double highest_square_of_waves(const model::Model& model, const Vector& p,
-                               const std::vector<double>& motions) {
+double highest_square_of_waves(const model::Model& model, const Vector& p, const Spring& spring) {
   double highest = 0;
   const bool symmetric = model::is_symmetric(model);
   for (const int diameter : diameters(*model.sector)) {
@@ -118,7 +125,7 @@ double highest_square_of_waves(const model::Model& model, const Vector& p,
       const Eigen::MatrixXd C = sum(LinearKind::damper);
       G = 0.5 * (C - C.transpose());
     }
-    add_elements(model, p, motions, diameter, K);
+    add_elements(model, spring, diameter, K);
     highest = std::max(highest, highest_square(sum(LinearKind::mass), K, G));
   }
   return highest;
@@ -176,32 +183,102 @@ double bound_of_highest_natural_frequency(const model::Model& model, const Vecto
   const Eigen::MatrixXd M = model::mass_matrix(model, p);
   const Vector masses = M.diagonal();
   if (!(masses.minCoeff() > 0) || !M.isDiagonal(0)) return 0;
-  const double square = (whole_stiffness(model, p, {}).diagonal().array() / masses.array()).maxCoeff();
+  const Eigen::MatrixXd K = whole_stiffness(model, p, springs_within(model, p, {}));
+  const double square = (K.diagonal().array() / masses.array()).maxCoeff();
   return square > 0 ? std::sqrt(square) : 0;
 }
 
 double highest_natural_frequency(const model::Model& model, const Vector& p,
                                  const std::vector<double>& motions) {
-  if (model.sector) return std::sqrt(highest_square_of_waves(model, p, motions));
-  return std::sqrt(highest_square(model::mass_matrix(model, p), whole_stiffness(model, p, motions),
+  const Spring spring = springs_within(model, p, motions);
+  if (model.sector) return std::sqrt(highest_square_of_waves(model, p, spring));
+  return std::sqrt(highest_square(model::mass_matrix(model, p), whole_stiffness(model, p, spring),
                                   skew_damping(model, p)));
 }
 
 std::optional<std::vector<ResonantMode>> resonant_modes(const model::Model& model, const Vector& p) {
   if (model.dofs > most_dofs_for_modes || !model::is_symmetric(model)) return {};
   std::vector<ResonantMode> all;
+  const Spring at_rest = springs_within(model, p, {});
   if (model.sector) {
     for (const int diameter : diameters(*model.sector)) {
       const auto sum = [&](LinearKind kind) { return sum_in_wave(model, kind, p, diameter); };
       const Eigen::MatrixXd stiffness = sum(LinearKind::spring);
       Eigen::MatrixXd K = stiffness;
-      add_elements(model, p, {}, diameter, K);
+      add_elements(model, at_rest, diameter, K);
       add_modes(model, p, sum(LinearKind::mass), sum(LinearKind::damper), stiffness, K,
                 turn(*model.sector, diameter), all);
     }
   } else {
     add_modes(model, p, model::mass_matrix(model, p), model::sum_of(model, LinearKind::damper, p),
-              model::sum_of(model, LinearKind::spring, p), whole_stiffness(model, p, {}), 0, all);
+              model::sum_of(model, LinearKind::spring, p), whole_stiffness(model, p, at_rest), 0, all);
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.omega < b.omega; });
+  return all;
+}
+
+namespace {
+
+// Contacts may be separated or slip; of a rigid one the stiffness is `rigid`.
+Spring springs_at_rest(const model::Model& model, const Vector& p, Contacts contacts, double rigid) {
+  return [&model, &p, contacts, rigid](std::size_t e, std::size_t i) {
+    const elements::Law& law = *model.elements[e].law;
+    const std::vector<double> fields = model.elements[e].fields(p);
+    const int direction = static_cast<int>(i);
+    if (!is_contact(law)) return law.stiffness(fields, direction, 0);
+    if (contacts == Contacts::free) return 0.0;
+    if (law.set_valued()) return rigid;
+    return std::min(law.traits(fields, direction).stiffness, rigid);
+  };
+}
+
+bool moves(const Vector& direction, const Vector& v) {
+  return std::abs(direction.dot(v)) > at_node * direction.lpNorm<1>() * v.lpNorm<Eigen::Infinity>();
+}
+
+// Whether the lowest harmonic of the excitation does work in the motion v.
+bool drives(const model::Model& model, const Vector& p, const Vector& v) {
+  return std::any_of(model.excitation.begin(), model.excitation.end(), [&](const model::Excitation& each) {
+    return each.harmonic == model.force_harmonic && std::abs(each.amplitude(p)) > 0 &&
+           moves(model::shape(model, each, p), v);
+  });
+}
+
+}  // namespace
+
+bool is_contact(const elements::Law& law) {
+  return law.has_contact() || law.tells_contact() || law.set_valued();
+}
+
+std::optional<std::vector<ModeAtRest>> modes_at_rest(const model::Model& model, const Vector& p,
+                                                     Contacts contacts) {
+  const bool in_waves = model.sector.has_value();
+  if (model.dofs * (in_waves ? 2 : 1) > most_dofs_at_rest || !model::is_symmetric(model)) return {};
+  const int diameter = in_waves ? model.sector->diameter(model.force_harmonic) : 0;
+  const auto sum = [&](LinearKind kind) {
+    return in_waves ? sum_in_wave(model, kind, p, diameter) : model::sum_of(model, kind, p);
+  };
+  const Eigen::MatrixXd M = sum(LinearKind::mass);
+  Eigen::MatrixXd K = sum(LinearKind::spring);
+  const Spring spring = springs_at_rest(model, p, contacts, rigid_link * K.cwiseAbs().maxCoeff());
+  if (in_waves)
+    add_elements(model, spring, diameter, K);
+  else
+    K = whole_stiffness(model, p, spring);
+  const ModesWithMass modes = modes_with_mass(M, K);
+  std::vector<ModeAtRest> all;
+  for (Eigen::Index k = 0; k < modes.squares.size(); k += in_waves ? 2 : 1) {  // in waves all are double
+    const Vector v = modes.V.col(k);
+    const double stiffness = v.dot(K * v);
+    if (!(stiffness > rigid_body * v.cwiseAbs().dot(K.cwiseAbs() * v.cwiseAbs()))) continue;
+    ModeAtRest mode{std::sqrt(stiffness / v.dot(M * v))};
+    if (!in_waves) {
+      mode.responds = moves(model.response, v) ||
+                      std::any_of(model.others.begin(), model.others.end(),
+                                  [&](const model::Direction& other) { return moves(Vector(other), v); });
+      mode.driven = drives(model, p, v);
+    }
+    all.push_back(mode);
   }
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.omega < b.omega; });
   return all;

@@ -1,6 +1,7 @@
 #pragma once
-// Natural modes of a structure with all elements at their maximum stiffness: which resonances the harmonics
-// of a motion may excite, and how far. Of a sector of a ring, in the waves of all harmonics.
+// Natural modes of a structure with its elements as springs. At their maximum stiffness: which resonances the
+// harmonics of a motion may excite, and how far. At rest: where resonances lie. Of a sector of a ring, in the
+// waves of all harmonics.
 
 #include <arcslip/model/model.hpp>
 
@@ -30,5 +31,25 @@ struct ResonantMode {
 /// are others, and for those of more than 200 degrees of freedom.
 std::optional<std::vector<ResonantMode>> resonant_modes(const model::Model& model,
                                                         const continuation::Vector& p);
+
+/// Contacts as springs: free ones carry no force, stuck ones have their largest stiffness.
+enum class Contacts { free, stuck };
+
+/// Whether its elements may stick and slip, or open.
+bool is_contact(const elements::Law& law);
+
+/// A natural mode of the structure at rest, without damping.
+struct ModeAtRest {
+  double omega;          // rad/s
+  bool responds = true;  // the response moves in it
+  bool driven = true;    // the lowest harmonic of the excitation drives it
+};
+
+/// In increasing order, without rigid-body motions; elements other than contacts are springs of their
+/// stiffness at rest. Of a sector of a ring in the wave of the lowest harmonic of the excitation, where all
+/// respond and are driven. Nothing for gyroscopic structures, and for those of more than 1000 degrees of
+/// freedom.
+std::optional<std::vector<ModeAtRest>> modes_at_rest(const model::Model& model, const continuation::Vector& p,
+                                                     Contacts contacts);
 
 }  // namespace arcslip::observables

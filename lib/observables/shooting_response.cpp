@@ -4,6 +4,7 @@
 #include <arcslip/observables/integrator.hpp>
 #include <arcslip/observables/over_parameter.hpp>
 #include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/resonances.hpp>
 #include <arcslip/observables/shooting_observer.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
@@ -159,9 +160,9 @@ ResponseBranch shooting_response(const scene::Scene& scene, const FrequencyRange
   const double per_unit = scene::to_rad_per_s(unit);
   const FrequencyWindow window{range.from * per_unit, range.to * per_unit};
   const double width = window.upper - window.lower;
-  auto model = std::make_shared<const model::Model>(model::build(scene));
+  const auto model = std::make_shared<const model::Model>(model::build(scene));
   const double typical = model->harmonics.base_frequency(0.5 * (window.lower + window.upper));
-  Path path{.model = std::move(model),
+  Path path{.model = model,
             .over = {},
             .free = model::frequency,
             .from = window.lower,
@@ -175,7 +176,9 @@ ResponseBranch shooting_response(const scene::Scene& scene, const FrequencyRange
                 [=](const continuation::BranchStop& stop, ResponseBranch& result) {
                   observables::tell_end(stop, window.lower, window.upper, unit, result);
                 }};
-  return Shooting(std::move(path), per_unit, range.stability, progress).run();
+  std::vector<ResponseBranch> branches{Shooting(std::move(path), per_unit, range.stability, progress).run()};
+  tell_missing_peak(*model, window, unit, branches);
+  return std::move(branches.front());
 }
 
 ResponseBranch shooting_response(const scene::Scene& scene, const ParameterRange& range,

@@ -140,6 +140,7 @@ std::string branch_remark(const scene::Scene& scene, const ResponseBranch& branc
     add(branch.symmetry == observables::Symmetry::mirror_pair ? "a pair of mirror images" : "");
     add("period " + std::to_string(branch.period));
   }
+  add(branch.no_peak);
   add(unstable_ranges(scene, branch));
   add(untraced(branch));
   return text;
@@ -170,6 +171,7 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch, 
                 doubt_of(branch),
                 {},
                 branch_remark(scene, branch)};
+  if (!branch.no_peak.empty()) result.end.facts.push_back({"no_peak", branch.no_peak});
   if (!branch.untraced.empty())
     result.end.facts.push_back(
         {"untraced", results::Value::List(branch.untraced.begin(), branch.untraced.end())});

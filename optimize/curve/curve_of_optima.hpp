@@ -70,6 +70,7 @@ class CurveOfOptima {
   continuation::Options trace_options();
   std::unique_ptr<OptimalityEvaluator> move_to_end(Piece& piece);
   void end_at_boundary(double s);
+  void check_window();
   // The equations at the end of a piece: with the tracked peaks, or, if trials have lost these, with those of
   // a new response.
   std::unique_ptr<OptimalityEvaluator> at_last_point();

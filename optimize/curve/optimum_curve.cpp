@@ -1,4 +1,5 @@
 #include <arcslip/optimize/curve/curve_of_optima.hpp>
+#include <arcslip/optimize/peaks/peak_unknowns.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
 
 #include <algorithm>
@@ -84,6 +85,7 @@ OptimumCurve CurveOfOptima::run() {
     end(Status::failed, reasons::objective_failed,
         text("an evaluation threw \"", thrown.what(), "\" at ", place(here_.sigma)));
   }
+  if (curve_.status == Status::complete) check_window();
   finish();
   return std::move(curve_);
 }
@@ -125,7 +127,8 @@ bool CurveOfOptima::begin() {
   watch_.begin("the curve");
   const Optimum& first = curve_.start;
   const std::string where = text("at ", along_.name, " = ", along_.lower, ": ");
-  if (first.status != Status::complete || first.stop.reason == reasons::flat || first.design.empty())
+  const bool found = first.status == Status::complete || first.stop.reason == reasons::end_of_window;
+  if (!found || first.stop.reason == reasons::flat || first.design.empty())
     return end(first.status == Status::complete ? Status::failed : first.status, first.stop.reason,
                where + first.stop.message);
   std::vector<double> design = first.design;
@@ -331,6 +334,25 @@ std::unique_ptr<OptimalityEvaluator> CurveOfOptima::move_to_end(Piece& piece) {
       each.index = here_.active.peaks[static_cast<std::size_t>(
           std::find(indices.begin(), indices.end(), each.index) - indices.begin())];
   return at;
+}
+
+// As of a single optimum.
+void CurveOfOptima::check_window() {
+  std::size_t count = 0;
+  double from = 0, to = 0;
+  for (const OptimumPoint& point : curve_.points) {
+    const bool at_end = std::any_of(point.peaks.begin(), point.peaks.end(),
+                                    [](const OptimumPeak& peak) { return is_end(peak.kind); });
+    if (!at_end) continue;
+    if (count++ == 0) from = point.along;
+    to = point.along;
+  }
+  if (count == 0) return;
+  end(Status::stopped, reasons::end_of_window,
+      text(curve_.stop.message, ", but at ", count, " of its ", curve_.points.size(), " points, from ",
+           along_.name, " = ", from, " to ", to,
+           ", the amplitude is largest at an end of the window, where it is no resonance "
+           "peak: take a window that contains the resonance"));
 }
 
 void CurveOfOptima::end_at_boundary(double s) {

@@ -121,6 +121,11 @@ class PeakAmplitude {
   const PeakState& trace(std::span<const double> design,
                          observables::Steps steps = observables::Steps::events);
 
+  /// Of the same model over another window.
+  PeakAmplitude over_window(const observables::FrequencyWindow& window) const {
+    return {model_, over_, window, go_on_, watched_};
+  }
+
   const PeakState& state() const { return state_; }
   const PeakWork& work() const { return work_; }
   const observables::FrequencyWindow& window() const { return window_; }

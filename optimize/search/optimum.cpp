@@ -1,11 +1,13 @@
 #include <arcslip/optimize/search/optimum.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/observables/study_branches.hpp>
 #include <arcslip/optimize/nlopt/interrupted.hpp>
 #include <arcslip/optimize/search/convergence.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
 #include <arcslip/optimize/search/search.hpp>
 #include <arcslip/optimize/search/start.hpp>
+#include <arcslip/optimize/search/window_check.hpp>
 
 #include <algorithm>
 #include <array>
@@ -62,6 +64,7 @@ Optimum Search::run() {
     }
   }
   describe();
+  if (result_.status == Status::complete && !is_part_) check_window();
   if (result_.status != Status::complete && !result_.design.empty() && std::isfinite(result_.amplitude)) {
     result_.stop.message +=
         text("; the lowest amplitude is ", result_.amplitude, " m at ", space().text(result_.design));
@@ -251,6 +254,23 @@ void Search::retreat() {
     }
   }
   start_ = best().design;
+}
+
+void Search::check_window() {
+  const auto value = value_at_end(designs_);
+  if (!value) return;
+  const std::string where = designs_.where(value->in_case) + "the amplitude is largest at the " +
+                            (value->upper ? "upper" : "lower") + " end of the window, " +
+                            observables::frequency_text(value->omega, scene_.frequency_unit);
+  try {
+    const BeyondEnd beyond = look_beyond(designs_, *value, scene_.frequency_unit);
+    if (!beyond.resonance) return note(where + beyond.text);
+    result_.status = Status::stopped;
+    result_.stop.reason = reasons::end_of_window;
+    result_.stop.message = where + ", where it is no resonance peak" + beyond.text;
+  } catch (const Interrupted&) {
+    interrupted();
+  }
 }
 
 void Search::stop_at_higher_peak() {

@@ -30,6 +30,11 @@ inline constexpr Reason other_peak{
     "other_peak",
     "after each of several searches the response at the best design had a peak higher than the tracked ones, "
     "so that it may not be the optimum; of a curve: a response has a peak higher than the tracked ones"};
+inline constexpr Reason end_of_window{
+    "end_of_window",
+    "the highest value lies at an end of the frequency window, where it is no resonance peak: the message "
+    "names "
+    "where resonances lie, and a window in which the design found has its peak inside"};
 inline constexpr Reason scatter_limit{
     "scatter_limit",
     "the worst case of the uncertain parameters still increased after the maximum number of searches"};
@@ -50,16 +55,16 @@ inline constexpr Reason no_progress{"no_progress",
 
 /// The reasons of a search.
 inline constexpr std::array of_optima = {
-    converged,         converged_value, converged_step, target,      rounding,         flat,
-    evaluation_limit,  time_limit,      user,           infeasible,  other_peak,       scatter_limit,
-    lower_beside,      not_stationary,  unbounded,      no_response, objective_failed, not_finite,
-    invalid_arguments, out_of_memory,   failed};
+    converged,        converged_value,   converged_step, target,     rounding,    flat,
+    evaluation_limit, time_limit,        user,           infeasible, other_peak,  end_of_window,
+    scatter_limit,    lower_beside,      not_stationary, unbounded,  no_response, objective_failed,
+    not_finite,       invalid_arguments, out_of_memory,  failed};
 
 /// The reasons of a curve of optima, in addition to those of the search for its first point. If the equations
 /// of an active set cannot be continued from the first point, the reason is that of a branch.
 inline constexpr std::array of_optimum_curves = {
-    boundary,    turned_back, point_limit, time_limit,      user, flat, other_peak, lost_peak, no_exchange,
-    no_progress, unbounded,   no_response, objective_failed};
+    boundary,      turned_back, point_limit, time_limit,  user,      flat,        other_peak,
+    end_of_window, lost_peak,   no_exchange, no_progress, unbounded, no_response, objective_failed};
 
 }  // namespace reasons
 

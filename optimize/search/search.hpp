@@ -82,6 +82,9 @@ class Search {
   // The lowest feasible ones of designs sampled over the bounds that are apart, also in amplitude: where
   // nothing slips at the peak, all searches are the same.
   std::vector<std::vector<double>> lowest_elsewhere();
+  // A highest value at an end of the window is no resonance peak: it ends the search where there is one
+  // beyond.
+  void check_window();
   // Sets the result of the best design. A certificate of another one is dropped.
   void describe();
 
@@ -117,6 +120,7 @@ class Search {
   std::optional<Minimum> minimum_left_{};  // the minimum from which further searches led elsewhere
   PeakWork work_elsewhere_{};
   bool ended_ = false;
+  bool is_part_ = false;  // of another search, which checks the window itself
 };
 
 }  // namespace arcslip::optimize

@@ -176,7 +176,9 @@ Optimum Search::search_from(const Beginning& beginning) {
     return !watch_.stopped();
   };
   options.go_on = [this] { return watch_.go_on(); };
-  Optimum found = optimum(there, problem_, options);
+  Search part(there, problem_, options);
+  part.is_part_ = true;
+  Optimum found = part.run();
   if (thrown) std::rethrow_exception(thrown);
   designs_.elsewhere().insert(designs_.elsewhere().end(), found.evaluations.begin(), found.evaluations.end());
   add(found.work, work_elsewhere_);

@@ -175,13 +175,7 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const Optim
           << " is active: relaxing it by 1 % lowers the amplitude by about "
           << number(limit.multiplier, "%.2g") << " %\n";
   int active = 0;
-  for (const auto& peak : certificate.peaks) {
-    active += peak.active;
-    const bool lower = peak.kind == PeakKind::lower_end;
-    if (peak.active && (lower || peak.kind == PeakKind::upper_end))
-      out << "  the amplitude is largest at the " << (lower ? "lower" : "upper")
-          << " end of the window: a wider window may contain a higher peak\n";
-  }
+  for (const auto& peak : certificate.peaks) active += peak.active;
   const bool mean = result.problem.criterion == Criterion::mean && result.optimum.cases.size() > 1;
   out << "  " << active << (active == 1 ? " active peak" : " active peaks") << (mean ? " of the cases" : "")
       << ", residual gradient " << number(certificate.stationarity, "%.1e") << '\n';

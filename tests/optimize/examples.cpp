@@ -7,6 +7,7 @@
 #include "optimize/optima.hpp"
 
 #include <arcslip/observables/time_study.hpp>
+#include <arcslip/optimize/search/reasons.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 
 #include <algorithm>
@@ -349,7 +350,7 @@ TEST_CASE("beside a minimum, a lower design on the way to the end of its toleran
   scene::set(s, "k.value", 9000);  // the resonance reaches the lower end of the window
   const OptimumProblem over_damper{{{"damper.normal_load", 0.5, 60}}, 15, 60};
   const auto found = optimize::optimum(s, over_damper);
-  REQUIRE(found.status == observables::Status::complete);
+  REQUIRE(found.stop.reason == optimize::reasons::end_of_window);
   CHECK(std::any_of(found.notes.begin(), found.notes.end(), [](const std::string& note) {
     return note.find("continued from the lower damper.normal_load") != std::string::npos;
   }));

@@ -233,7 +233,10 @@ TEST_CASE("an optimum at the end of the window becomes a resonance where that co
   // the mass that becomes worse than letting go; between the two is a saddle, at the end of the window.
   const OptimumProblem problem{{{"damper.normal_load", 0.3, 10}}, 18, 20.03};
   const OptimumCurve curve = optimum_curve(paper(7, 0.134), problem, {"m.value", 1.2, 1.5});
-  check_complete(curve);
+  INFO(curve.stop.message);
+  CHECK(curve.status == observables::Status::stopped);
+  CHECK(curve.stop.reason == reasons::end_of_window);
+  CHECK(curve.stop.message.find("from m.value = 1.2 to ") != std::string::npos);
   const auto turns = events(curve, "turning_point"), changes = events(curve, "peak_changes");
   REQUIRE(turns.size() == 2);
   CHECK(turns[0]->nonsmooth);

@@ -5,6 +5,7 @@
 #include "optimize/row.hpp"
 
 #include <arcslip/optimize/search/optimum.hpp>
+#include <arcslip/optimize/search/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -131,7 +132,7 @@ TEST_CASE("at an end of the window two extremes of the motion are equally high a
     "studies": [{"kind": "frf", "from": 7, "to": 12}]})");
   const Optimum found = optimize::optimum(s, {{{"second.cosine", -1, 2}}, 7, 12});
   CAPTURE(found.stop.message);
-  REQUIRE(found.status == observables::Status::complete);
+  REQUIRE(found.stop.reason == optimize::reasons::end_of_window);
   CHECK(found.epigraph);
   const double omega = 7 * 2 * std::numbers::pi;
   CHECK(found.amplitude == Approx(1 / std::hypot(1000 - omega * omega, 2 * omega)).epsilon(1e-7));

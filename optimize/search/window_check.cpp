@@ -1,0 +1,178 @@
+#include <arcslip/optimize/search/window_check.hpp>
+
+#include <arcslip/observables/resonances.hpp>
+#include <arcslip/observables/study_branches.hpp>
+#include <arcslip/optimize/peaks/peak_unknowns.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace arcslip::optimize {
+
+using observables::FrequencyWindow;
+namespace {
+
+constexpr double as_high = 1e-6;             // relative
+constexpr std::size_t most_for_corners = 3;  // design parameters whose bounds are combined
+constexpr double beside = 1.1;               // of the outermost natural frequency: the end of a wider window
+constexpr double wider = 1.3;                // of its other end, where the amplitude is largest there
+constexpr double far_beyond = 10;            // of its end, where no natural frequency is left beyond
+constexpr int most_windows = 5;
+constexpr int digits = 3;       // of the ends of a window
+constexpr int told_digits = 5;  // of other numbers
+constexpr double rounding = 1e-9;
+
+/// The best design, and the corners of the bounds: of many parameters the two where all are at the same end.
+std::vector<std::vector<double>> designs_over_bounds(const DesignSpace& space,
+                                                     const std::vector<double>& best) {
+  const std::size_t n = best.size();
+  std::vector<std::vector<double>> all{best};
+  const std::size_t corners = n <= most_for_corners ? std::size_t{1} << n : 2;
+  for (std::size_t corner = 0; corner < corners; ++corner) {
+    std::vector<double> design(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const bool upper = n <= most_for_corners ? (corner >> k & 1U) != 0 : corner == 1;
+      design[k] = upper ? space.upper()[k] : space.lower()[k];
+    }
+    all.push_back(std::move(design));
+  }
+  return all;
+}
+
+/// Where the resonance of a mode may lie, from free to stuck contacts, rad/s.
+struct Span {
+  double lower, upper;
+};
+
+std::vector<Span> resonances_over_bounds(DesignEvaluations& designs, std::size_t in_case) {
+  const PeakAmplitude& peaks = designs.cases().peaks(in_case);
+  std::vector<Span> spans;
+  for (const std::vector<double>& design : designs_over_bounds(designs.space(), designs.best().design)) {
+    const auto model = peaks.model_at(design);
+    const observables::Resonances found = observables::resonances(*model, model::defaults(*model));
+    const auto& stuck = found.stuck.empty() ? found.free : found.stuck;
+    const std::size_t count = std::min(found.free.size(), stuck.size());
+    if (spans.empty())
+      for (std::size_t j = 0; j < count; ++j) spans.push_back({found.free[j].omega, stuck[j].omega});
+    for (std::size_t j = 0; j < std::min(count, spans.size()); ++j) {
+      spans[j].lower = std::min(spans[j].lower, found.free[j].omega);
+      spans[j].upper = std::max(spans[j].upper, stuck[j].omega);
+    }
+  }
+  return spans;
+}
+
+/// Rounded outwards, but by no digit that is rounding itself.
+double rounded(double value, bool up) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) + 1 - digits), count = value / unit;
+  return (up ? std::ceil(count - rounding) : std::floor(count + rounding)) * unit;
+}
+
+/// The nearest mode whose resonance may lie beyond that end; null: none.
+const Span* nearest_beyond(const FrequencyWindow& window, const std::vector<Span>& spans, bool upper) {
+  const Span* nearest = nullptr;
+  for (const Span& each : spans) {
+    const bool beyond = upper ? each.upper > window.upper : each.lower < window.lower;
+    if (!beyond) continue;
+    if (!nearest || (upper ? each.upper < nearest->upper : each.lower > nearest->lower)) nearest = &each;
+  }
+  return nearest;
+}
+
+std::string frequency(double omega, scene::FrequencyUnit unit) {
+  return observables::to_digits(omega / scene::to_rad_per_s(unit), told_digits);
+}
+
+/// "42.7 to 54.8 Hz", or "42.7 Hz" where both are the same.
+std::string between(double lower, double upper, scene::FrequencyUnit unit) {
+  const std::string from = frequency(lower, unit), to = frequency(upper, unit);
+  return from + (from == to ? "" : " to " + to) + " " + std::string(scene::unit_name(unit));
+}
+
+FrequencyWindow widened(const FrequencyWindow& window, bool upper, double factor, double unit) {
+  if (upper) return {window.lower, rounded(window.upper * factor / unit, true) * unit};
+  return {rounded(window.lower / factor / unit, false) * unit, window.upper};
+}
+
+FrequencyWindow around(const FrequencyWindow& window, const Span& mode, double unit) {
+  return {std::min(window.lower, rounded(mode.lower / beside / unit, false) * unit),
+          std::max(window.upper, rounded(mode.upper * beside / unit, true) * unit)};
+}
+
+/// The highest peak of a design in a window; nothing where it has no finite one.
+std::optional<Peak> highest_in(const PeakAmplitude& peaks, const std::vector<double>& design,
+                               const FrequencyWindow& window) {
+  PeakAmplitude over(peaks.over_window(window));
+  const PeakState& state = over.trace(design, observables::Steps::curve);
+  if (state.unbounded || !state.complete || state.peaks.empty()) return {};
+  return state.peaks[state.highest];
+}
+
+/// "; over the bounds resonances may lie, from free to stuck contacts, at 40.1 to 47 Hz", up to the first one
+/// above the window.
+std::string text_of(const std::vector<Span>& spans, const FrequencyWindow& window,
+                    scene::FrequencyUnit unit) {
+  std::string said;
+  for (const Span& each : spans) {
+    said += said.empty() ? "; over the bounds resonances may lie, from free to stuck contacts, at " : ", ";
+    said += between(each.lower, each.upper, unit);
+    if (each.lower > window.upper) break;
+  }
+  return said;
+}
+
+}  // namespace
+
+std::optional<ValueAtEnd> value_at_end(DesignEvaluations& designs) {
+  const LoadCases& cases = designs.cases();
+  const auto& seen = designs.best().cases;
+  const auto height = [&](std::size_t c, double amplitude) { return cases.weight(c) * amplitude; };
+  std::vector<double> highest(cases.groups(), 0.0);
+  for (std::size_t c = 0; c < seen.size(); ++c) {
+    double& most = highest[cases.group(c)];
+    most = std::max(most, height(c, seen[c].state.amplitude()));
+  }
+  for (std::size_t c = 0; c < seen.size(); ++c)
+    for (const Peak& peak : seen[c].state.peaks)
+      if (is_end(peak.kind) && peak.amplitude > 0 &&
+          height(c, peak.amplitude) >= (1 - as_high) * highest[cases.group(c)])
+        return ValueAtEnd{c, peak.kind == PeakKind::upper_end, peak.omega()};
+  return {};
+}
+
+BeyondEnd look_beyond(DesignEvaluations& designs, const ValueAtEnd& value, scene::FrequencyUnit unit) {
+  const PeakAmplitude& peaks = designs.cases().peaks(value.in_case);
+  const std::vector<double>& design = designs.best().design;
+  const double per_unit = scene::to_rad_per_s(unit);
+  const std::vector<Span> spans = resonances_over_bounds(designs, value.in_case);
+  BeyondEnd found{true, text_of(spans, peaks.window(), unit)};
+  const Span* mode = nearest_beyond(peaks.window(), spans, value.upper);
+  bool is_far = !mode;  // the window reaches far beyond that end
+  FrequencyWindow window = mode ? around(peaks.window(), *mode, per_unit)
+                                : widened(peaks.window(), value.upper, far_beyond, per_unit);
+  for (int k = 0; k < most_windows; ++k) {
+    const auto highest = highest_in(peaks, design, window);
+    if (!highest) break;
+    const std::string there = observables::to_digits(highest->amplitude, told_digits) + " m at " +
+                              between(highest->omega(), highest->omega(), unit);
+    if (!is_end(highest->kind)) {
+      found.text += "; from " + between(window.lower, window.upper, unit) + " this design has a peak of " +
+                    there + ": take that window";
+      return found;
+    }
+    const bool upper = highest->kind == PeakKind::upper_end;
+    if (is_far && upper == value.upper) {
+      found.resonance = false;
+      found.text += "; this design has no resonance beyond: the amplitude rises on, to " + there;
+      return found;
+    }
+    window = widened(window, upper, upper == value.upper ? far_beyond : wider, per_unit);
+    is_far = is_far || upper == value.upper;
+  }
+  found.text += "; take a window that contains the resonance";
+  return found;
+}
+
+}  // namespace arcslip::optimize

@@ -1,0 +1,89 @@
+// The highest value at an end of the window: where the peak is, in closed form.
+
+#include "catch.hpp"
+#include "contains.hpp"
+
+#include "lib/hbm/scenes.hpp"
+
+#include <arcslip/optimize/search/optimum.hpp>
+#include <arcslip/optimize/search/reasons.hpp>
+
+#include <cmath>
+#include <string>
+
+using namespace arcslip;
+using observables::Status;
+using optimize::Optimum;
+
+namespace {
+
+constexpr double natural = 10 * scenes::hertz;
+
+/// 1 kg at 10 Hz; over the damper, whose largest value is best everywhere.
+scene::Scene oscillator() {
+  return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "Hz", "structure": {"dofs": ["x"],
+    "masses": [{"name": "m", "at": "x", "value": 1}], "springs": [{"name": "k", "at": "x", "frequency": 10}],
+    "dampers": [{"name": "c", "at": "x", "value": 2}]},
+    "excitation": [{"name": "f", "at": "x", "cosine": 1}], "response": {"at": "x"}, "harmonics": {"order": 1}})");
+}
+
+Optimum over_damper(double least, double most, double from, double to) {
+  return optimize::optimum(oscillator(), {{{"c.value", least, most}}, from, to});
+}
+
+double amplitude(double c, double hz) {
+  const double w = hz * scenes::hertz;
+  return 1 / std::hypot(natural * natural - w * w, c * w);
+}
+
+}  // namespace
+
+TEST_CASE("a window that misses the resonance is no complete answer, and the window to take is told") {
+  for (const bool upper : {true, false}) {
+    CAPTURE(upper);
+    const Optimum found = upper ? over_damper(1, 5, 5, 8) : over_damper(1, 5, 12, 15);
+    CAPTURE(found.stop.message);
+    CHECK(found.status == Status::stopped);
+    CHECK(found.stop.reason == optimize::reasons::end_of_window);
+    REQUIRE(found.design.size() == 1);
+    CHECK(std::abs(found.design[0] - 5) < 1e-12);
+    CHECK(std::abs(found.amplitude / amplitude(5, upper ? 8 : 12) - 1) < 1e-9);
+    const char* at = upper ? "largest at the upper end of the window, 8 Hz"
+                           : "largest at the lower end of the window, 12 Hz";
+    CHECK(contains(found.stop.message, at));
+    // The peak of c = 5 N s/m: 1/(c sqrt(w^2 - c^2/4)) at sqrt(w^2 - c^2/2).
+    CHECK(contains(found.stop.message,
+                   "over the bounds resonances may lie, from free to stuck contacts, at 10 Hz; from "));
+    CHECK(contains(
+        found.stop.message,
+        upper ? "from 5 to 11 Hz this design has a peak of 0.0031856 m at 9.9842 Hz: take that window"
+              : "from 9.09 to 15 Hz this design has a peak of 0.0031856 m at 9.9842 Hz: take that window"));
+  }
+  const Optimum inside = over_damper(1, 5, 5, 11);
+  CHECK(inside.status == Status::complete);
+  CHECK(std::abs(inside.amplitude - 1 / (5 * std::sqrt(natural * natural - 25.0 / 4))) <
+        1e-9 * inside.amplitude);
+}
+
+TEST_CASE(
+    "where the amplitude is largest at an end of the window and there is no resonance beyond, that is said") {
+  // Above 1/sqrt(2) of critical damping there is no peak: the amplitude falls from rest on.
+  const double critical = 2 * natural;
+  for (const auto& [from, to] : {std::pair(2.0, 20.0), std::pair(12.0, 20.0)}) {
+    CAPTURE(from);
+    const Optimum found = over_damper(0.8 * critical, 1.2 * critical, from, to);
+    CAPTURE(found.stop.message);
+    CHECK(found.status == Status::complete);
+    CHECK(std::abs(found.amplitude / amplitude(1.2 * critical, from) - 1) < 1e-9);
+    REQUIRE(!found.notes.empty());
+    CHECK(contains(found.notes.back(), "the amplitude is largest at the lower end of the window"));
+    CHECK(contains(found.notes.back(), "this design has no resonance beyond: the amplitude rises on, to "));
+  }
+}
+
+TEST_CASE("a case in which nothing moves is not said to lie at an end of the window") {
+  optimize::OptimumProblem problem{{{"c.value", 1, 5}}, 5, 15};
+  problem.cases = {{{{"f.cosine", 0}}, 1}, {{{"f.cosine", 1}}, 1}};
+  problem.criterion = optimize::Criterion::mean;
+  CHECK(optimize::optimum(oscillator(), problem).status == Status::complete);
+}
