@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace arcslip::optimize {
@@ -15,9 +16,10 @@ namespace {
 
 constexpr double same_amplitude = 1e-7;  // relative
 constexpr double same_response = 1e-6;   // relative
-constexpr int most_steps = 20;           // to an end of a tolerance range
+constexpr int most_steps = 60;           // to an end of a tolerance range
 constexpr double range_accuracy = 1e-6;  // of the share
-constexpr double narrow = 1e-9;          // relative: a bracket of the place where a limit is reached
+constexpr double seen_again = 1e-4;      // of the share: a level that a new response shows as well
+constexpr double narrow = 1e-9;  // relative: a bracket of the place where a limit is reached, or V jumps
 constexpr int deflation_iterations = 40;
 
 class Certifier {
@@ -95,61 +97,108 @@ class Certifier {
 
   enum class End { level, limit, bound };
 
-  // The value beyond the optimum at which V = (1 + share) V_opt, from a guess, or the limit or bound that
-  // comes first.
-  double range_end(std::size_t k, int side, double share, double guess, End& end) {
+  // The way from the optimum to an end of a tolerance range.
+  struct Way {
+    std::size_t k;  // of the parameter
+    int side;
+    double share;
+    double bound() const { return side < 0 ? lower : upper; }
+    double lower, upper;  // bounds of the parameter
+  };
+
+  // What holds at a value of the parameter.
+  struct Seen {
+    double level = 0;   // ln(V / V_opt); infinite or NaN without a finite V
+    double margin = 0;  // the largest c(p) of all limits
+    double slope = 0;   // d ln V / dp
+    bool kept() const { return margin <= limit_tolerance; }
+  };
+
+  Seen see(const Way& way, double value, bool traced) {
     auto design = design_;
-    const double target = std::log1p(share), bound = side < 0 ? lower_[k] : upper_[k];
-    double inner = design[k], outer = bound;  // within the range at inner; not yet known at the bound
-    double inner_margin = margin_at_optimum_, outer_margin = 0;
-    double value = guess;
-    bool bracketed = false;
-    end = End::level;
-    for (int step = 0; step < most_steps && (!go_on_ || go_on_()); ++step) {
-      if (!(side * (value - inner) > 0) || side * (value - outer) > 0) value = 0.5 * (inner + outer);
-      design[k] = value;
+    design[way.k] = value;
+    if (traced)
+      cases_.trace(design, observables::Steps::curve);
+    else
       cases_.at(design);
-      const double now = cases_.value(), level = std::log(now / value_);
-      const double margin = margin_ ? margin_() : -1;
-      const bool kept = margin <= limit_tolerance;
-      if (kept && now < lowest_) {
-        lowest_ = now;
-        result_.lower_design = design;
+    const double now = cases_.value();
+    Seen seen{std::log(now / value_), margin_ ? margin_() : -1};
+    if (std::isfinite(now)) seen.slope = cases_.gradient()[static_cast<Eigen::Index>(way.k)] / now;
+    if (seen.kept() && now < lowest_) {
+      lowest_ = now;
+      result_.lower_design = std::move(design);
+    }
+    return seen;
+  }
+
+  static double target(const Way& way) { return std::log1p(way.share); }
+  bool is_within(const Way& way, const Seen& seen) const {
+    return seen.kept() && seen.level <= target(way) + range_accuracy * way.share;
+  }
+
+  // Where V is (1 + share) V_opt, from a guess, or the limit or bound that comes first. outer: the range ends
+  // before it; the bound, or where V was seen to be higher, and then `beyond` is what holds there.
+  double search_end(const Way& way, double guess, double outer, std::optional<Seen> beyond, bool traced,
+                    End& end) {
+    double inner = design_[way.k], inner_margin = margin_at_optimum_;  // within the range
+    double value = guess;
+    end = beyond && !beyond->kept() ? End::limit : End::level;
+    const bool stays = static_cast<bool>(beyond);
+    for (int step = 0; step < most_steps && (!go_on_ || go_on_()); ++step) {
+      if (!(way.side * (value - inner) > 0) || way.side * (value - outer) > 0) value = 0.5 * (inner + outer);
+      const Seen seen = see(way, value, traced);
+      if (seen.kept() && std::abs(seen.level - target(way)) <= range_accuracy * way.share) {
+        end = End::level;
+        return value;
       }
-      if (kept && std::abs(level - target) <= range_accuracy * share) return value;
-      if (kept && level < target) {
-        if (value == bound) {
+      if (seen.kept() && seen.level < target(way)) {
+        if (value == way.bound() && !stays) {
           end = End::bound;
           return value;
         }
         inner = value;
-        inner_margin = margin;
+        inner_margin = seen.margin;
       } else {
-        end = kept ? End::level : End::limit;
+        end = seen.kept() ? End::level : End::limit;
         outer = value;
-        outer_margin = margin;
-        bracketed = true;
+        beyond = seen;
       }
-      double next = bracketed ? 0.5 * (inner + outer) : bound;
-      if (end == End::limit) {
-        // Limits are nearly linear; every third step bisects, in case they are not.
+      if (beyond && std::abs(outer - inner) <= narrow * std::abs(outer))
+        return inner;  // a limit, or a jump of V
+      double next = beyond ? 0.5 * (inner + outer) : way.bound();
+      const bool bisects = step % 3 == 2;  // limits are nearly linear and V nearly a power of the distance
+      if (beyond && !bisects && !beyond->kept()) {
         const double share_of_way =
-            std::max(0.0, -inner_margin) / (outer_margin - std::min(0.0, inner_margin));
-        if (step % 3 != 2) next = inner + share_of_way * (outer - inner);
+            std::max(0.0, -inner_margin) / (beyond->margin - std::min(0.0, inner_margin));
+        next = inner + share_of_way * (outer - inner);
         if (std::abs(next - inner) <= narrow * std::abs(outer)) return inner;
-      } else if (std::isfinite(now)) {
-        const double slope = cases_.gradient()[static_cast<Eigen::Index>(k)] / now;
-        // V is nearly a parabola in the distance from the optimum, for which this Newton step is exact.
-        const double distance = value - design_[k];
+      } else if (!(beyond && bisects) && std::isfinite(seen.level)) {
+        const double distance = value - design_[way.k], power = seen.slope * distance;
         const double newton =
-            slope * distance > 0 && level > 0
-                ? design_[k] + distance * std::pow(target / level, level / (slope * distance))
+            power > 0 && seen.level > 0
+                ? design_[way.k] + distance * std::pow(target(way) / seen.level, seen.level / power)
                 : next;
-        if (side * (newton - inner) > 0 && side * (outer - newton) >= 0) next = newton;
+        if (way.side * (newton - inner) > 0 && way.side * (outer - newton) >= 0) next = newton;
       }
       value = next;
     }
-    return end == End::limit ? inner : value;
+    return inner;
+  }
+
+  // The same by peaks that are tracked, and where new responses at the end or half way show that one was
+  // lost, by new responses alone.
+  double range_end(const Way& way, double guess, End& end) {
+    const double at = design_[way.k];
+    const double found = search_end(way, guess, way.bound(), {}, false, end);
+    if (go_on_ && !go_on_()) return found;
+    for (const double share_of_way : {0.5, 1.0}) {
+      const double value = at + share_of_way * (found - at);
+      const Seen seen = see(way, value, true);
+      if (!is_within(way, seen)) return search_end(way, 0.5 * (at + value), value, seen, true, end);
+      const bool short_of_it = end == End::level && seen.level < target(way) - seen_again * way.share;
+      if (share_of_way == 1 && short_of_it) return search_end(way, found, way.bound(), {}, true, end);
+    }
+    return found;
   }
 
   void ranges(std::size_t k) {
@@ -169,7 +218,7 @@ class Certifier {
         }
         if (side * (guess - bound) > 0) guess = bound;
         End by = End::bound;
-        if (side * (bound - at) > 0) end = range_end(k, side, share, guess, by);
+        if (side * (bound - at) > 0) end = range_end({k, side, share, lower_[k], upper_[k]}, guess, by);
         (side < 0 ? range.lower_is_bound : range.upper_is_bound) = by == End::bound;
         (side < 0 ? range.lower_is_limit : range.upper_is_limit) = by == End::limit;
       }
