@@ -11,6 +11,9 @@ namespace {
 constexpr double massless = 1e-14;  // a mode: its mu relative to the largest
 constexpr double rigid = 1e-10;     // v^T K v over the terms that it is made of
 constexpr int shifts = 8;           // tried, by factors of 100
+// The damping of a mode grows to its own from this share of it.
+constexpr double least_damping = 1e-4, same_eigenvalue = 1e-12;
+constexpr int damping_steps = 60, most_iterations = 30;
 
 // F = D X of the fundamental of an element, its own unknowns eliminated: D = k + i omega c.
 ComplexMatrix fundamental_stiffness(const elements::Harmonics& h, const elements::Law& law,
@@ -44,15 +47,21 @@ continuation::SymmetricModes shifted_modes(const Eigen::MatrixXd& M, const Eigen
 
 }  // namespace
 
-std::vector<LinearMode> linear_modes(const HbmProblem& problem, const Vector& p, const HbmEvaluator* at,
-                                     double omega) {
+namespace {
+
+struct LinearizedMatrices {
+  Eigen::MatrixXd M, C, K;
+};
+
+LinearizedMatrices linearized(const HbmProblem& problem, const Vector& p, const HbmEvaluator* at,
+                              double omega) {
   const model::Model& model = problem.model();
   const Vector own = p.head(static_cast<Eigen::Index>(model.parameters.size()));
   const Eigen::MatrixXd& P = problem.coordinates().P;
   LinearParts parts(model, P, problem.harmonics());
   parts.move_to(own);
-  const Eigen::MatrixXd& M = parts.matrices().M;
-  Eigen::MatrixXd K = parts.matrices().K, C = parts.matrices().C;
+  LinearizedMatrices all{parts.matrices().M, parts.matrices().C, parts.matrices().K};
+  auto& [M, C, K] = all;
   if (const auto& damping = model.damping)
     C += damping->alpha_at(own) * M + (damping->beta_at(own) + damping->loss_factor_at(own) / omega) * K;
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
@@ -74,6 +83,14 @@ std::vector<LinearMode> linear_modes(const HbmProblem& problem, const Vector& p,
     K += E * Ke * E.transpose();
     C += E * Ce * E.transpose();
   }
+  return all;
+}
+
+}  // namespace
+
+std::vector<LinearMode> linear_modes(const HbmProblem& problem, const Vector& p, const HbmEvaluator* at,
+                                     double omega) {
+  const auto [M, C, K] = linearized(problem, p, at, omega);
   if (!K.allFinite() || !C.allFinite()) return {};
 
   const auto found = shifted_modes(M, K);
@@ -97,6 +114,31 @@ std::vector<LinearMode> linear_modes(const HbmProblem& problem, const Vector& p,
     modes.push_back(std::move(mode));
   }
   return modes;
+}
+
+std::optional<DampedMode> damped_mode(const HbmProblem& problem, const Vector& p, const HbmEvaluator& at,
+                                      const LinearMode& undamped) {
+  const auto [M, C, K] = linearized(problem, p, &at, undamped.omega);
+  DampedMode mode{undamped.omega, 0, undamped.shape.cast<Complex>()};
+  Complex mu = undamped.omega * undamped.omega;  // omega^2 (1 + 2 i zeta)
+  for (int step = 0; step <= damping_steps; ++step) {
+    const double share = std::pow(least_damping, 1 - static_cast<double>(step) / damping_steps);
+    bool converged = false;
+    for (int k = 0; k < most_iterations && !converged; ++k) {  // Rayleigh quotients, of symmetric matrices
+      const ComplexMatrix A = K.cast<Complex>() + Complex(0, mode.omega * share) * C.cast<Complex>();
+      const ComplexMatrix v = continuation::solve_complex(A - mu * M.cast<Complex>(), M * mode.shape);
+      if (!v.allFinite()) return {};
+      mode.shape = v.col(0) / v.col(0).norm();
+      const Complex before = mu, mass = mode.shape.conjugate().dot(M * mode.shape);
+      mu = mode.shape.conjugate().dot(A * mode.shape) / mass;
+      if (!(mu.real() > 0)) return {};
+      mode.omega = std::sqrt(mu.real());
+      converged = std::abs(mu - before) <= same_eigenvalue * std::abs(mu);
+    }
+    if (!converged) return {};
+  }
+  mode.damping_ratio = 0.5 * mu.imag() / mu.real();
+  return mode;
 }
 
 Vector unknowns_of(const HbmProblem& problem, const ComplexVector& shape) {

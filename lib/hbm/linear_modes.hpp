@@ -4,6 +4,7 @@
 
 #include <arcslip/hbm/problem.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,20 @@ struct LinearMode {
 /// at which C_e and a loss factor are taken. Empty: no such modes, as where M and K are singular together.
 std::vector<LinearMode> linear_modes(const HbmProblem& problem, const Vector& p, const HbmEvaluator* at,
                                      double omega);
+
+/// A mode with its damping, omega and zeta real and v complex:
+///
+///   (K + K_e + i omega (C + C_e)) v = omega^2 (1 + 2 i zeta) M v
+///
+/// the limit at small amplitudes of the motion that hbm/mode.hpp defines. Followed from an undamped mode
+/// while the damping grows from nothing; empty where that does not come to its end, as where the mode ceases
+/// to oscillate. `at` and omega as above.
+struct DampedMode {
+  double omega = 0, damping_ratio = 0;
+  ComplexVector shape;
+};
+std::optional<DampedMode> damped_mode(const HbmProblem& problem, const Vector& p, const HbmEvaluator& at,
+                                      const LinearMode& undamped);
 
 /// The unknowns of the motion y = Re shape exp(i omega t).
 Vector unknowns_of(const HbmProblem& problem, const ComplexVector& shape);

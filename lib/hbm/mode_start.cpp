@@ -106,6 +106,36 @@ bool is_isolated(const ModeProblem& problem, const Vector& v) {
   return continuation::orthogonal_complement(J, isolated).cols() == 0;
 }
 
+// Newton's method from a linear mode, at the amplitude or as far below as the mode is linear. shape: per unit
+// of the response.
+bool find_motion(const ComplexVector& shape, double omega, double damping_ratio, double amplitude, bool alone,
+                 const std::function<bool()>& go_on, ModeStart& start) {
+  const HbmProblem& motions = start.problem->motions();
+  const int n = motions.size();
+  const Vector per_response = unknowns_of(motions, shape);
+  const double ratio = per_response.norm();
+  Vector guess(n + 4);
+  guess << per_response / ratio, std::log(omega / start.problem->omega_0()) + (alone ? 0 : off_resonance),
+      damping_ratio, std::log(ratio), 0;
+  continuation::NewtonOptions newton;
+  newton.iterations = 30;
+  bool found = false;
+  for (int k = 0; k <= decades && (!go_on || go_on()); ++k) {
+    const double at_amplitude = std::pow(10, -k) * amplitude;
+    guess[n + 3] = std::log(at_amplitude);
+    continuation::Counts counts;
+    continuation::Corrector corrector(*start.problem, guess.tail(1), 0, newton, counts);
+    Vector v = guess;
+    if (!corrector.correct(v, Vector::Unit(n + 4, n + 3), false).converged) continue;
+    if (!alone && ((v - guess).head(n).norm() > close_shape || !is_isolated(*start.problem, v))) continue;
+    found = true;
+    start.u = v.head(n + 3);
+    start.amplitude = at_amplitude;
+    if (std::abs(v[n] - guess[n]) <= close_frequency && (v - guess).head(n).norm() <= close_shape) break;
+  }
+  return found;
+}
+
 }  // namespace
 
 ModeStart mode_start(const std::shared_ptr<const model::Model>& model, const model::Model& excited, int mode,
@@ -177,28 +207,16 @@ ModeStart mode_start(const std::shared_ptr<const model::Model>& model, const mod
   const LinearMode& linear = modes[j];
 
   start.problem = std::make_shared<const ModeProblem>(motions, *rest, omega);
-  const int n = motions->size();
-  const Vector per_response = unknowns_of(*motions, shape);
-  const double ratio = per_response.norm();
-  Vector guess(n + 4);
-  guess << per_response / ratio, (alone ? 0 : off_resonance), linear.damping_ratio, std::log(ratio), 0;
-  continuation::NewtonOptions newton;
-  newton.iterations = 30;
-  bool found = false;
-  for (int k = 0; k <= decades && (!go_on || go_on()); ++k) {
-    const double at_amplitude = std::pow(10, -k) * amplitude;
-    guess[n + 3] = std::log(at_amplitude);
-    continuation::Counts counts;
-    continuation::Corrector corrector(*start.problem, guess.tail(1), 0, newton, counts);
-    Vector v = guess;
-    if (!corrector.correct(v, Vector::Unit(n + 4, n + 3), false).converged) continue;
-    if (!alone && ((v - guess).head(n).norm() > close_shape || !is_isolated(*start.problem, v))) continue;
-    found = true;
-    start.u = v.head(n + 3);
-    start.amplitude = at_amplitude;
-    if (std::abs(v[n]) <= close_frequency && (v - guess).head(n).norm() <= close_shape) break;
+  if (find_motion(shape, omega, linear.damping_ratio, amplitude, alone, go_on, start)) return start;
+  if (alone) {  // where damping changes the mode
+    if (const auto damped = damped_mode(*motions, p, *at, linear)) {
+      const Complex moved = response.cast<Complex>().dot(damped->shape);
+      if (std::abs(moved) > at_a_node * damped->shape.cwiseAbs().maxCoeff() &&
+          find_motion(damped->shape / moved, damped->omega, damped->damping_ratio, amplitude, alone, go_on,
+                      start))
+        return start;
+    }
   }
-  if (found) return start;
   if (!alone) {
     start.no_mode = "mode " + std::to_string(mode) +
                     " shares its frequency with others, and the combination that the excitation drives is no "

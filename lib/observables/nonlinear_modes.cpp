@@ -29,6 +29,8 @@ constexpr double alone = 3e-2;                // of a harmonic and its multiples
 constexpr double largest_ratio = 1e8;         // the motion over that of the response
 constexpr const char* outgrown = "outgrown";  // the monitor of that
 constexpr double within_ends = 1e-9;          // the ends of the range: of its logarithm, where a peak may be
+constexpr const char* mark = "mark";          // the monitor of an amplitude that all orders have
+constexpr int marks = 15;                     // between the ends of the range, in equal ratios
 
 std::string metres(double amplitude) {
   std::ostringstream s;
@@ -45,9 +47,9 @@ continuation::Monitor extremum(const char* kind, Crossing crossing, bool divides
   return monitor;
 }
 
-continuation::Monitor amplitude_monitor(double log_amplitude) {
+continuation::Monitor amplitude_monitor(const char* name, double log_amplitude) {
   continuation::Monitor monitor;
-  monitor.name = event_kinds::peak;
+  monitor.name = name;
   monitor.value = [=](const Accepted& now) { return now.parameter - log_amplitude; };
   return monitor;
 }
@@ -151,9 +153,11 @@ class ModeStudy {
       const double width = options.upper - options.lower;
       for (int k = 0; k < range_.true_peaks; ++k) {
         const double share = range_.true_peaks > 1 ? static_cast<double>(k) / (range_.true_peaks - 1) : 0.5;
-        monitors.push_back(
-            amplitude_monitor(options.lower + std::clamp(share, within_ends, 1 - within_ends) * width));
+        monitors.push_back(amplitude_monitor(
+            event_kinds::peak, options.lower + std::clamp(share, within_ends, 1 - within_ends) * width));
       }
+      for (int k = 1; k <= marks; ++k)
+        monitors.push_back(amplitude_monitor(mark, options.lower + width * k / (marks + 1)));
     }
     monitors.push_back(continuation::bound_monitor(outgrown, problem->log_ratio(), std::log(largest_ratio)));
     auto traced = continuation::trace(problem, {u, Vector::Constant(1, options.lower), 0, 1}, options,
@@ -164,6 +168,14 @@ class ModeStudy {
 
   bool record(const hbm::ModeProblem& problem, const Accepted& now, const continuation::Event* event) {
     if (event && event->monitor == outgrown) return true;
+    if (event && event->monitor == mark) {
+      const auto& at = static_cast<const hbm::ModeEvaluator&>(now.at);
+      ResponsePoint& point = result_.marks.emplace_back();
+      point.amplitude = at.amplitude();
+      point.omega = at.omega();
+      point.damping_ratio = at.damping_ratio();
+      return true;
+    }
     ResponsePoint point = observe(problem, static_cast<const hbm::ModeEvaluator&>(now.at));
     if (event) {
       if (event->monitor == event_kinds::peak) {

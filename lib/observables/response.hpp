@@ -217,6 +217,8 @@ struct ResponseBranch {
   std::vector<int> harmonics;                              // n of the coefficients
   std::vector<ResponsePoint> points;
   std::vector<ResponseEvent> events;
+  std::vector<ResponsePoint> marks{};  // of a mode: amplitude, frequency and damping ratio at amplitudes that
+                                       // are the same for all orders
   std::string doubt;                // why the accuracy of a complete branch is doubtful; empty: it is not
   std::string no_peak{};            // where a complete frequency response has none: where resonances lie
   std::string unknown_stability{};  // why its points have no stability, where it is requested

@@ -21,12 +21,23 @@ constexpr double rate_of_changes = 2;
 constexpr double largest_growth = 3, growth_where_unknown = 2;  // of the order
 constexpr double safety = 1.3;                                  // of the error expected of the next order
 constexpr int fewest_samples = 512;
+constexpr double least_damping_ratio = 1e-8;  // rounding is 1e-8 of it
 constexpr double samples_rate = 1.5;
 
 // Rounded up to an odd multiple of the period: with an antisymmetric motion an even one adds nothing.
 int rounded_up(double order, int period) {
   const int n = static_cast<int>(std::ceil(order / period));
   return (n % 2 == 0 ? n + 1 : n) * period;
+}
+
+// By which changes of damping ratios are measured: that of a mode is 0 while all of its contacts stick, and
+// of a conservative structure throughout, to rounding.
+double largest_damping_ratio(std::span<const observables::ResponseBranch> branches) {
+  double largest = least_damping_ratio;
+  for (const observables::ResponseBranch& branch : branches)
+    for (const observables::ResponsePoint& point : branch.points)
+      largest = std::fmax(largest, std::abs(point.damping_ratio));
+  return largest;
 }
 
 std::string to_two_digits(double value) {
@@ -57,10 +68,12 @@ Truncation truncation_of(std::span<const observables::ResponseBranch> branches, 
     for (const observables::ResponseEvent& event : branch.events) add(event.point, found);
   }
   if (!estimated) found.estimate = no_value;
+  const double damping = largest_damping_ratio(branches);
   const auto add_landmarks = [&](const observables::ResponsePoint& point) {
     if (!point.unbounded) found.landmarks.push_back({point.amplitude, found.amplitude});
-    for (const double value : {point.omega, point.over, point.damping_ratio})
+    for (const double value : {point.omega, point.over})
       if (std::isfinite(value)) found.landmarks.push_back({value, std::abs(value)});
+    if (std::isfinite(point.damping_ratio)) found.landmarks.push_back({point.damping_ratio, damping});
   };
   for (const observables::ResponseBranch& branch : branches) {
     if (branch.points.empty()) continue;
@@ -68,6 +81,7 @@ Truncation truncation_of(std::span<const observables::ResponseBranch> branches, 
     add_landmarks(branch.points.back());
     for (const observables::ResponseEvent& event : branch.events)
       if (std::isnan(event.point.truncation_estimate)) add_landmarks(event.point);
+    for (const observables::ResponsePoint& mark : branch.marks) add_landmarks(mark);
   }
   return found;
 }

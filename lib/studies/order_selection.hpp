@@ -7,8 +7,9 @@
 //
 // with the estimates dA of the truncation error (truncation.hpp). Where one of them is flagged as perhaps far
 // too low, or there is none, as of modes, the order M before counts as well: with the largest relative change
-// c of landmarks, which are the ends of branches and the events without an estimate, the error is taken as
-// c/((N/M)^2 - 1), as if it fell as N^-2, or as c where that is less.
+// c of landmarks, which are the ends of branches, the events without an estimate, and of modes fifteen
+// amplitudes in between (with damping ratios relative to the largest), the error is taken as c/((N/M)^2 - 1),
+// as if it fell as N^-2, or as c where that is less.
 //
 // The next order is the one at which the error, as N^-p, is e: p from the last two orders, and 3 at first,
 // which is that of friction. Samples, where a force is sampled, grow as N^(3/2), so that their error falls as

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <string>
 
 using namespace modes;
 
@@ -302,4 +304,37 @@ TEST_CASE(
     CHECK(largest.back().omega == Approx(largest.front().omega).epsilon(1e-9));
     CHECK(largest.back().amplitude / load == Approx(largest.front().amplitude / 5).epsilon(1e-7));
   }
+}
+
+TEST_CASE(
+    "damping at rest that changes the mode: the modes of a regularised friction begin at those of its "
+    "damper") {
+  // tanh friction of 5 N and 0.05 m/s is a damper of 100 N s/m for a small motion, 100 times critical for its
+  // mass.
+  const auto scene = [](const std::string& element) {
+    return parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {"dofs": ["a", "b"],
+      "masses": [{"name": "ma", "at": "a", "value": 0.02}, {"name": "mb", "at": "b", "value": 1}],
+      "springs": [{"name": "k2", "between": ["a", "b"], "value": 40}, {"name": "k3", "at": "b", "value": 600}]},
+      "elements": [)" +
+                 element + R"(], "excitation": [{"name": "f", "at": "b", "cosine": 1}],
+      "harmonics": {"order": 21}, "response": {"at": "b"}})");
+  };
+  const scene::Scene friction = scene(R"({"name": "fr", "type": "tanh_friction", "at": "a",
+    "friction_coefficient": 1, "normal_load": 5, "reference_velocity": 0.05})");
+  const ResponseBranch branch = mode(friction, 1, 1e-6, 0.03);
+  const ResponsePoint last = at_end(branch, 0.03), first = branch.points.front();
+  // (K + i w C) v = w^2 (1 + 2 i zeta) M v: of two masses a quadratic equation in mu = w^2 (1 + 2 i zeta).
+  double w = 25;
+  std::complex<double> mu;
+  for (int k = 0; k < 200; ++k) {
+    const std::complex<double> a(40, 100 * w);
+    // 0.02 mu^2 - (a + 0.02 640) mu + 640 a - 1600 = 0
+    const std::complex<double> b = a + 12.8, c = 640.0 * a - 1600.0;
+    mu = 2.0 * c / (b + std::sqrt(b * b - 0.08 * c));
+    w = std::sqrt(mu.real());
+  }
+  CHECK(first.omega == Approx(w).epsilon(1e-9));
+  CHECK(first.damping_ratio == Approx(0.5 * mu.imag() / mu.real()).epsilon(1e-6));
+  CHECK(last.omega == Approx(25.298083).epsilon(1e-8));  // shooting
+  CHECK(last.damping_ratio == Approx(5.0138e-4).epsilon(1e-4));
 }

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 using namespace arcslip;
@@ -391,4 +392,48 @@ TEST_CASE("modes have no estimates: two orders agree") {
   const Json &a = mode["points"].back(), &b = exact["points"].back();
   CHECK(std::abs(a["frequency"].get<double>() / b["frequency"].get<double>() - 1) <= 1e-5);
   CHECK(std::abs(a["damping_ratio"].get<double>() / b["damping_ratio"].get<double>() - 1) <= 1e-5);
+}
+
+TEST_CASE(
+    "the mode of a conservative structure reaches an accuracy: its damping ratio of 0 changes by nothing") {
+  scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}]},
+    "elements": [{"name": "nl", "type": "cubic_spring", "at": "x", "stiffness": 1}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 1}], "response": {"at": "x"}})");
+  for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
+    CAPTURE(accuracy);
+    const Json mode = results_json(accurate(
+        with_study(s, studies::modes(), observables::ModeRange{1, 0.1, 5}), accuracy))["branches"][0];
+    CHECK(mode["accuracy"]["error"] <= accuracy);
+    CHECK(mode["accuracy"]["order"] <= 65);
+    for (const Json& point : mode["points"]) {  // pi sqrt(1 + A^2) / (2 K(m)), m = A^2/(2 (1 + A^2))
+      const double a = point["amplitude"], m = a * a / (2 * (1 + a * a));
+      const double exact = std::numbers::pi * std::sqrt(1 + a * a) / (2 * std::comp_ellint_1(std::sqrt(m)));
+      CHECK(std::abs(point["omega"].get<double>() / exact - 1) <= accuracy);
+    }
+  }
+}
+
+TEST_CASE("the accuracy of a mode holds between the ends of its range, or is not said to be reached") {
+  // A light mass on a stiff contact: the higher harmonics count where it begins to slip, and at neither end.
+  const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["a", "b"],
+      "masses": [{"name": "ma", "at": "a", "value": 0.02}, {"name": "mb", "at": "b", "value": 1}],
+      "springs": [{"name": "k2", "between": ["a", "b"], "value": 40}, {"name": "k3", "at": "b", "value": 600}]},
+    "elements": [{"name": "fr", "type": "jenkins", "at": "a", "friction_coefficient": 1, "normal_load": 5, "stiffness": 1e5}],
+    "excitation": [{"name": "f", "at": "b", "cosine": 1}], "response": {"at": "b"}})");
+  const Json mode = results_json(accurate(
+      with_study(s, studies::modes(), observables::ModeRange{1, 0.03, 10}), 1e-4, 55))["branches"][0];
+  CHECK(mode["accuracy"]["order"] == 55);
+  CHECK(mode["accuracy"]["error"] > 1e-4);
+  // At 0.15953 m, by shooting: 24.696264 rad/s and 0.0386406.
+  const Json* nearest = nullptr;
+  for (const Json& point : mode["points"])
+    if (!nearest || std::abs(point["amplitude"].get<double>() - 0.15953) <
+                        std::abs((*nearest)["amplitude"].get<double>() - 0.15953))
+      nearest = &point;
+  REQUIRE(nearest);
+  CHECK(std::abs((*nearest)["omega"].get<double>() / 24.696264 - 1) < 2e-3);
+  CHECK(std::abs((*nearest)["damping_ratio"].get<double>() / 0.0386406 - 1) < 2e-2);
 }
