@@ -28,6 +28,10 @@ inline constexpr const char* branch_point = "branch_point";  // continuation::br
 inline constexpr std::array of_stability = {period_doubling, neimark_sacker, symmetry_breaking,
                                             stability_lost};
 
+// One multiplier, or a pair of them, is on the unit circle.
+inline constexpr std::array limits_of_stability = {fold,           branch_point,      period_doubling,
+                                                   neimark_sacker, symmetry_breaking, stability_lost};
+
 inline constexpr std::array of_curves = {period_doubling, neimark_sacker, symmetry_breaking};
 
 // On curves of bifurcations: a pair of multipliers at exp(+- 2 pi i/q), q = 1, 2, 3, 4.

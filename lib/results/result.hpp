@@ -41,6 +41,13 @@ struct Table {
   bool by_columns = false;             // JSON holds a list for each column, and not an object for each row
 };
 
+/// What stands in place of a flag that is true, where another column has one of some words.
+struct Instead {
+  std::string text;  // "limit"
+  std::string of;    // "kind"
+  std::vector<std::string> words;
+};
+
 /// A column of the output for people.
 struct Shown {
   std::string title;                 // "A_max (m)"
@@ -52,6 +59,7 @@ struct Shown {
   // Columns that tell whether that error may be too low, flags that are true and estimates that are null:
   // then three digits are shown at most, also without an estimate.
   std::vector<std::string> doubtful{};
+  Instead instead{};
 };
 
 /// The structure of all results of a study.

@@ -51,6 +51,12 @@ Row cells(const std::vector<Shown>& shown, const Object& object, const Object& f
     const Value* flag = name.empty() ? nullptr : find(object, {&name, 1});
     return flag && std::holds_alternative<bool>(flag->get()) && std::get<bool>(flag->get());
   };
+  const auto stands_instead = [&](const Shown& each) {
+    const Value* word = each.instead.of.empty() ? nullptr : find(object, {&each.instead.of, 1});
+    const auto* text = word ? std::get_if<std::string>(&word->get()) : nullptr;
+    const auto& words = each.instead.words;
+    return text && is_set(each.path.front()) && std::find(words.begin(), words.end(), *text) != words.end();
+  };
   const auto is_doubtful = [&](const std::string& name) {
     const Value* value = find(object, {&name, 1});
     const auto* number = value ? std::get_if<double>(&value->get()) : nullptr;
@@ -65,6 +71,7 @@ Row cells(const std::vector<Shown>& shown, const Object& object, const Object& f
     const bool doubtful = std::any_of(each.doubtful.begin(), each.doubtful.end(), is_doubtful);
     row.push_back(value ? text_of(*value, each.format, size, doubtful) : no_value);
     if (row.back() == no_value && is_set(each.otherwise)) row.back() = each.otherwise;
+    if (stands_instead(each)) row.back() = each.instead.text;
   }
   return row;
 }

@@ -1,5 +1,6 @@
 #include <arcslip/studies/branches.hpp>
 
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/results/text.hpp>
 
 #include <algorithm>
@@ -104,7 +105,12 @@ std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked)
                  .doubtful = doubts});
   if (asked.mode) all.push_back({"damping ratio", {"damping_ratio"}, "%.8f"});
   add_stick(scene, all, doubts);
-  if (asked.stability) all.push_back({"stable", {"stable"}});
+  if (asked.stability) {  // `stable` of an event leaves out the multipliers that make it one
+    const auto& limits = observables::event_kinds::limits_of_stability;
+    all.push_back({.title = "stable",
+                   .path = {"stable"},
+                   .instead = {"limit", "kind", {limits.begin(), limits.end()}}});
+  }
   return all;
 }
 

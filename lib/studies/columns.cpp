@@ -1,5 +1,6 @@
 #include <arcslip/studies/columns.hpp>
 
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/prepare.hpp>
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/text.hpp>
@@ -186,36 +187,64 @@ std::string doubt_of_stops(const std::string& element) {
                                "error falls slowly with the harmonics; give the contact a stiffness";
 }
 
+namespace {
+
+using UnstablePart = std::pair<const ResponsePoint*, const ResponsePoint*>;  // its ends
+
+bool is_limit(const observables::ResponseEvent& event) {
+  const auto& kinds = observables::event_kinds::limits_of_stability;
+  return event.point.stability && std::find(kinds.begin(), kinds.end(), event.kind) != kinds.end();
+}
+
+/// Between events where there are any: also where two of them have no point between them.
+std::vector<UnstablePart> unstable_parts(const observables::ResponseBranch& branch) {
+  const auto& points = branch.points;
+  const auto is_unstable = [&](std::size_t i) {
+    return points[i].stability && points[i].stability->unstable > 0;
+  };
+  std::vector<UnstablePart> parts;
+  bool now = false;
+  const auto go_to = [&](bool unstable, const ResponsePoint& at) {
+    const bool goes_on = unstable && !parts.empty() && parts.back().second == &at;  // no part is empty
+    const bool is_empty = !unstable && now && parts.back().first == &at;
+    if (is_empty)
+      parts.pop_back();
+    else if (unstable && !now && !goes_on)
+      parts.push_back({&at, &at});
+    else if (!unstable && now)
+      parts.back().second = &at;
+    now = unstable;
+  };
+  auto event = branch.events.begin();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const observables::ResponseEvent* last = nullptr;
+    for (; event != branch.events.end() && event->after < i; ++event) {
+      if (i == 0 || !branch.of.empty() || !is_limit(*event)) continue;
+      // Its own multipliers cross the circle: one side has no others outside. Not so on a curve of such
+      // points.
+      last = &*event;
+      if (event->point.stability->unstable == 0) go_to(!now, event->point);
+    }
+    if (now != is_unstable(i)) go_to(is_unstable(i), last ? last->point : now ? points[i - 1] : points[i]);
+    if (now && !parts.empty()) parts.back().second = &points[i];
+  }
+  return parts;
+}
+
+}  // namespace
+
 std::string unstable_ranges(const scene::Scene& scene, const observables::ResponseBranch& branch) {
-  // Between the events that the range ends with, where there are any.
   const auto text_of = [&](const ResponsePoint& at) {
     const double unit = branch.over.empty() ? in_scene_unit(scene, 1) : 1;
     const double value = branch.over.empty() ? at.omega : at.over, estimate = at.location_estimate;
     const double error = at.truncation_flagged ? results::doubtful_error(value, estimate) : estimate;
     return results::with_error(unit * value, unit * error, "%.8g");
   };
-  const auto& points = branch.points;
-  const auto is_unstable = [&](std::size_t i) {
-    return points[i].stability && points[i].stability->unstable > 0;
-  };
   std::string text;
-  for (std::size_t i = 0; i < points.size();) {
-    if (!is_unstable(i)) {
-      ++i;
-      continue;
-    }
-    std::size_t last = i;
-    while (last + 1 < points.size() && is_unstable(last + 1)) ++last;
-    const ResponsePoint *from = &points[i], *to = &points[last];
-    for (const auto& event : branch.events) {
-      if (i > 0 && event.after + 1 == i) from = &event.point;
-      if (last + 1 < points.size() && event.after == last) to = &event.point;
-    }
+  for (const auto& [from, to] : unstable_parts(branch))
     text +=
         (text.empty() ? (branch.of.empty() ? "unstable from " : "no limit of stability from ") : ", from ") +
         text_of(*from) + " to " + text_of(*to);
-    i = last + 1;
-  }
   if (text.empty()) return text;
   const std::string unit = branch.over.empty() ? std::string(scene::unit_name(scene.frequency_unit))
                                                : parameter_unit(scene, branch.over);

@@ -5,12 +5,15 @@
 #include <arcslip/elements/jenkins.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
+#include <arcslip/results/table_writer.hpp>
 #include <arcslip/results/version.hpp>
 #include <arcslip/studies/branches.hpp>
+#include <arcslip/studies/columns.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -279,4 +282,67 @@ TEST_CASE("names with commas and quotes are quoted in CSV") {
   auto branch = support::branch();
   branch.set = {{"a \"b\", c.normal_load", 3}};
   CHECK(branch_csv_lines(scene, {branch})[0].starts_with("study,\"a \"\"b\"\", c.normal_load (N)\",branch,"));
+}
+
+namespace {
+
+/// A branch over the frequency with a multiplier outside at some points, and limits of stability after them.
+observables::ResponseBranch with_limits(const std::vector<int>& unstable,
+                                        const std::vector<std::pair<double, std::size_t>>& limits) {
+  observables::ResponseBranch branch;
+  for (const int count : unstable) {
+    observables::ResponsePoint& point = branch.points.emplace_back();
+    point.omega = static_cast<double>(branch.points.size());
+    point.amplitude = 1;
+    point.stability.emplace().unstable = count;
+  }
+  for (const auto& [omega, after] : limits) {
+    observables::ResponseEvent event{"fold", false, true, branch.points.front(), after};
+    event.point.omega = omega;
+    event.point.stability->unstable = 0;  // beside the one that makes it a limit
+    branch.events.push_back(std::move(event));
+  }
+  return branch;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "unstable parts of a branch lie between its limits of stability, also where no point is between two") {
+  scene::Scene s = support::scene();
+  s.frequency_unit = scene::FrequencyUnit::radian_per_second;
+  const auto text = [&](const observables::ResponseBranch& branch) {
+    return studies::unstable_ranges(s, branch);
+  };
+  CHECK(text(with_limits({0, 0, 0}, {})).empty());
+  CHECK(text(with_limits({0, 1, 1, 0}, {})) == "unstable from 2 to 3 rad/s");
+  CHECK(text(with_limits({0, 1, 1, 0}, {{1.5, 0}, {3.5, 2}})) == "unstable from 1.5 to 3.5 rad/s");
+  CHECK(text(with_limits({1, 1}, {{1.25, 0}, {1.5, 0}})) == "unstable from 1 to 1.25, from 1.5 to 2 rad/s");
+  CHECK(text(with_limits({0, 0}, {{1.25, 0}, {1.5, 0}})) == "unstable from 1.25 to 1.5 rad/s");
+  CHECK(text(with_limits({1, 1, 0}, {{1.25, 0}, {1.5, 0}, {2.5, 1}})) ==
+        "unstable from 1 to 1.25, from 1.5 to 2.5 rad/s");
+  // Where multipliers jump beside a limit, the points decide.
+  CHECK(text(with_limits({0, 0, 1}, {{1.5, 0}})) == "unstable from 3 to 3 rad/s");
+  CHECK(text(with_limits({1, 1, 0}, {{1.5, 0}})) == "unstable from 1 to 2 rad/s");
+  // A branch that turns back: frequencies need not rise.
+  CHECK(text(with_limits({0, 1, 1}, {{1.5, 0}})) == "unstable from 1.5 to 3 rad/s");
+}
+
+TEST_CASE("a limit of stability is no stable motion in the table, and other motions keep their word") {
+  const scene::Scene s = support::scene();
+  observables::ResponseBranch branch = with_limits({0, 1, 1, 0}, {{1.5, 0}, {3.5, 2}});
+  branch.events.push_back(branch.events.front());
+  branch.events.back().kind = "peak";
+  branch.events.push_back(branch.events.front());
+  branch.events.back().point.stability->unstable = 1;  // another one is outside
+  std::ostringstream table;
+  results::write_table(table, studies::results_of(s, {&branch, 1}));
+  std::istringstream lines(table.str());
+  std::vector<std::string> words;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::vector<std::string> row{std::istream_iterator<std::string>(cells), {}};
+    words.push_back(row[row.size() - 2]);
+  }
+  CHECK(words == std::vector<std::string>{"stable", "limit", "limit", "yes", "no"});
 }
