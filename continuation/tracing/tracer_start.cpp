@@ -14,9 +14,6 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double first_share_of_window = 0.01;  // |dp| of a step by default
-constexpr const char* remedy =
-    ": at a fold or a branch point p does not determine the direction, and a start needs a tangent "
-    "(Start::tangent)";
 
 // The window cut to the parameter's bounds, and the largest |dp| of a step.
 Options within(const Parameter& free, Options options) {
@@ -125,7 +122,7 @@ State Tracer::Impl::save() const {
 // Appended to the message that the linearization at the start is singular.
 std::string Tracer::Impl::singular_start(bool has_tangent) const {
   const std::string doubt = doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver);
-  return !doubt.empty() || has_tangent ? doubt : remedy;
+  return !doubt.empty() || has_tangent ? doubt : needs_tangent;
 }
 
 bool Tracer::Impl::begin() {
@@ -140,7 +137,7 @@ bool Tracer::Impl::begin() {
                    (main_.failure().empty() ? singular_start(given) : ""));
   if (!correction.converged && correction.evaluated) {
     std::string doubts = jacobian_.doubt(s_.here.v);
-    if (doubts.empty() && correction.linear && !given) doubts = std::string("; it converges slowly") + remedy;
+    if (doubts.empty() && correction.linear && !given) doubts = std::string("; it converges slowly") + needs_tangent;
     return end(StopReason::start_failed, correction.last, options_.newton.tolerance,
                "the corrector did not converge at the start (" + std::to_string(correction.iterations) +
                    " iterations)" + doubts + because(main_.failure()));

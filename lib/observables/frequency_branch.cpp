@@ -1,5 +1,7 @@
 #include <arcslip/observables/frequency_branch.hpp>
 
+#include <arcslip/observables/event_kinds.hpp>
+
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/model/stiffness_apart.hpp>
 #include <arcslip/observables/phase_resonance.hpp>
@@ -63,8 +65,10 @@ std::string held_by_friction(const model::Model& model, const Vector& p) {
 void speak_of_scene(const model::Model& model, const Vector& p, continuation::Branch& branch) {
   using continuation::StopReason;
   if (branch.stop.reason == StopReason::user || branch.stop.reason == StopReason::boundary) return;
-  branch.stop.message += causes(model, p);
-  branch.stop.message += held_by_friction(model, p);
+  std::string& message = branch.stop.message;
+  if (const auto at = message.find(continuation::needs_tangent); at != std::string::npos) message.resize(at);
+  message += causes(model, p);
+  message += held_by_friction(model, p);
 }
 
 void tell_end(const continuation::BranchStop& stop, double from, double upper, scene::FrequencyUnit unit,
@@ -196,6 +200,10 @@ std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Obse
     for (auto& monitor : stability_monitors(observer)) monitors.push_back(std::move(monitor));
   }
   if (watched.branch_points) monitors.push_back(continuation::branch_point_monitor());
+  if (watched.passage > 0)
+    monitors.push_back({event_kinds::passage, [at = watched.passage](const continuation::Accepted& now) {
+                          return now.parameter - at;
+                        }});
   return monitors;
 }
 

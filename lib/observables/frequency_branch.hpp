@@ -86,6 +86,7 @@ struct Watched {
   StabilityRequest stability{};  // points have it, and bifurcations are events
   bool phase = false;            // points of phase resonance
   bool branch_points = false;    // where branches of the same harmonics cross
+  double passage = 0;            // rad/s: where the branch passes this frequency; 0: not looked for
 };
 
 /// Options and monitors of branches over the frequency.

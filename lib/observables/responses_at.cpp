@@ -1,7 +1,12 @@
 #include <arcslip/observables/responses_at.hpp>
 
+#include <arcslip/continuation/tracing/corrector.hpp>
 #include <arcslip/hbm/problem.hpp>
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/refined_parts.hpp>
+#include <arcslip/observables/resonances.hpp>
+#include <arcslip/observables/solutions_beside.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
 
@@ -13,9 +18,15 @@
 namespace arcslip::observables {
 namespace {
 
-using continuation::Vector;
+using continuation::StopReason, continuation::Vector;
 
 constexpr double search_ratio = 4;  // of frequencies: the window in which other responses are looked for
+constexpr double lowest_ratio =
+    10;  // the same down to below natural frequencies, from which resonances may bend up
+constexpr double below_natural = 0.5;
+constexpr int most_deflations = 16;
+constexpr int most_corrections = 20;
+constexpr double same_frequency = 1e-14, same_place = 1e-3;
 
 bool may_have_several(const model::Model& model) {
   const Vector p = model::defaults(model);
@@ -27,34 +38,148 @@ bool may_have_several(const model::Model& model) {
   });
 }
 
-// Adds those at which a frequency branch through a wide window passes omega.
-void add_others(const std::shared_ptr<const model::Model>& model, double omega, const GoOn& go_on,
-                ResponsesAt& found) {
-  if (!may_have_several(*model)) return;
-  const FrequencyWindow window{omega / search_ratio, omega * search_ratio};
-  const auto swept = frequency_branch(model, window, window.lower, {}, 1, Steps::passage, go_on);
-  const Vector p = hbm::parameters_at(*swept.problem, omega);
-  const auto& points = swept.branch.points;
-  const auto& stop = swept.branch.stop;
-  if (stop.reason != continuation::StopReason::boundary || stop.value != window.upper)
-    found.doubt =
-        "other responses may be missing, since the branch from a quarter to four times the frequency "
-        "could not be continued: " +
-        stop.message;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const auto &a = points[i - 1], &b = points[i];
-    if ((a.parameter < omega) == (b.parameter < omega)) continue;
-    const double share = (omega - a.parameter) / (b.parameter - a.parameter);
-    const auto u = hbm::response_near(*swept.problem, p, a.u + share * (b.u - a.u));
-    const auto is_same = [&](const Vector& other) {
-      return (*u - other).norm() <= same_solution * other.norm();
-    };
-    if (!u)
-      found.doubt = "another response, where a branch crosses the frequency, could not be corrected";
-    else if (std::none_of(found.u.begin(), found.u.end(), is_same))
-      found.u.push_back(*u);
-  }
+FrequencyWindow search_window(const model::Model& model, double omega) {
+  FrequencyWindow window{omega / search_ratio, omega * search_ratio};
+  for (const ModeAtRest& mode : resonances(model, model::defaults(model)).free)
+    if (mode.omega > omega / lowest_ratio) {
+      window.lower = std::min(window.lower, below_natural * mode.omega);
+      break;
+    }
+  return window;
 }
+
+// The responses at omega on branches through a wide window.
+class Search {
+ public:
+  Search(std::shared_ptr<const model::Model> model, double omega, const GoOn& go_on, ResponsesAt& found)
+      : model_(std::move(model)),
+        omega_(omega),
+        window_(search_window(*model_, omega)),
+        go_on_(go_on),
+        found_(found),
+        p_(hbm::parameters_at(*found.problem, omega)) {}
+
+  void run(const std::vector<Vector>& guesses) {
+    found_.several = true;
+    const Vector first = found_.u.front();
+    found_.u.clear();
+    found_.window = window_;
+    const auto swept =
+        frequency_branch(model_, window_, window_.lower, {}, 1, Steps::passage, go_on_, watched_);
+    take(swept);
+    if (const auto& stop = swept.branch.stop;
+        stop.reason == StopReason::boundary && stop.value != window_.upper)
+      doubt(stop.message);
+    // Newton's method may have ended near a response that it does not come to.
+    const auto corrected = hbm::response_near(*found_.problem, p_, first);
+    if (corrected ? !is_among(*corrected) : found_.u.empty()) {
+      found_.u.insert(found_.u.begin(), corrected.value_or(first));
+      follow(found_.u.front());
+    }
+    for (const Vector& guess : guesses)
+      if (const auto u = hbm::response_near(*found_.problem, p_, guess); u && !stopped() && add(*u))
+        follow(*u);
+    for (int k = 0; k < most_deflations && !stopped(); ++k) {
+      const auto other = solution_beside(*found_.problem, omega_, found_.u, go_on_);
+      if (!other || !add(*other)) break;
+      follow(*other);
+    }
+  }
+
+ private:
+  bool stopped() const { return go_on_ && !go_on_(); }
+
+  bool is_among(const Vector& u) const {
+    return std::any_of(found_.u.begin(), found_.u.end(), [&](const Vector& other) {
+      return (u - other).norm() <= same_solution * other.norm();
+    });
+  }
+
+  // Whether it is a further one.
+  bool add(const Vector& u) {
+    if (is_among(u)) return false;
+    found_.u.push_back(u);
+    return true;
+  }
+
+  // Corrected at omega, where that leads no farther.
+  void add_near(const Vector& guess, bool is_located) {
+    const auto u = hbm::response_near(*found_.problem, p_, guess);
+    if (u && (!is_located || (*u - guess).norm() <= same_place * guess.norm()))
+      add(*u);
+    else if (is_located)
+      add(guess);
+    else
+      found_.doubt = "another response, where the branch passes the frequency, could not be corrected";
+  }
+
+  // Where the branch passes omega between a fold and a point beside it: corrected in planes normal to the
+  // tangent at the fold, since at omega the equations are nearly singular. From the fold the frequency
+  // changes as the square of the way. share: of the frequencies between the two.
+  void add_between(const continuation::Point& fold, const continuation::Point& beside, double share) {
+    const Eigen::Index n = fold.u.size();
+    Vector at_fold(n + 1), normal(n + 1);
+    at_fold << fold.u, fold.parameter;
+    normal << fold.tangent.head(n).normalized(), 0;
+    continuation::NewtonOptions newton;
+    continuation::Counts counts;
+    continuation::Corrector corrector(*found_.problem, p_, model::frequency, newton, counts);
+    double way = std::sqrt(share) * normal.head(n).dot(beside.u - fold.u);
+    Vector v;
+    for (int k = 0; k < most_corrections; ++k) {
+      v = at_fold + way * normal;
+      if (!corrector.correct(v, normal, false).converged) break;
+      const double ratio = (omega_ - fold.parameter) / (v[n] - fold.parameter);
+      if (!(ratio > 0)) break;
+      if (std::abs(v[n] - omega_) <= same_frequency * omega_) {
+        add(v.head(n));
+        return;
+      }
+      way *= std::sqrt(ratio);
+    }
+    add_near(fold.u + std::sqrt(share) * (beside.u - fold.u), false);
+  }
+
+  // The branch through a response, both ways.
+  void follow(const Vector& u) {
+    for (const int direction : {1, -1}) {
+      const double to = direction > 0 ? window_.upper : window_.lower;
+      const auto traced = frequency_branch_part(found_.problem, window_, omega_, to, u, {}, direction,
+                                                Steps::passage, go_on_, watched_);
+      take(traced);
+      if (traced.branch.stop.reason == StopReason::closed) return;
+    }
+  }
+
+  // Next to a fold a branch may pass twice within a step.
+  void take(const FrequencyBranch& traced) {
+    const continuation::Branch& branch = traced.branch;
+    for (const continuation::Event& event : branch.events) {
+      if (event.monitor == event_kinds::passage && event.located) add_near(event.point.u, true);
+      if (event.monitor != event_kinds::fold || event.after + 1 >= branch.points.size()) continue;
+      for (const std::size_t i : {event.after, event.after + 1}) {
+        const continuation::Point &fold = event.point, &beside = branch.points[i];
+        const double share = (fold.parameter - omega_) / (fold.parameter - beside.parameter);
+        if (share > 0 && share < 1) add_between(fold, beside, share);
+      }
+    }
+    const bool ends = branch.stop.reason == StopReason::boundary || branch.stop.reason == StopReason::closed;
+    if (!ends) doubt(branch.stop.message);
+  }
+
+  void doubt(const std::string& why) {
+    if (found_.doubt.empty())
+      found_.doubt = "other responses may be missing, since the branch could not be continued: " + why;
+  }
+
+  std::shared_ptr<const model::Model> model_;
+  double omega_;
+  FrequencyWindow window_;
+  const GoOn& go_on_;
+  ResponsesAt& found_;
+  const Vector p_;
+  const Watched watched_{.passage = omega_};
+};
 
 // The first point of a branch that begins there, which is corrected and observed as every other one.
 continuation::Branch observe_one(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u,
@@ -63,11 +188,14 @@ continuation::Branch observe_one(const std::shared_ptr<const hbm::HbmProblem>& p
   options.lower = omega;
   options.upper = omega * search_ratio;
   options.check_jacobian = false;
-  return continuation::trace(problem, {u, hbm::parameters_at(*problem, omega), model::frequency, 1}, options,
-                             {}, [&](const continuation::Accepted& now, const continuation::Event*) {
-                               point = observer.observe(now, HeldBy::parameter, true);
-                               return false;
-                             });
+  const Vector p = hbm::parameters_at(*problem, omega);
+  auto branch = continuation::trace(problem, {u, p, model::frequency, 1}, options, {},
+                                    [&](const continuation::Accepted& now, const continuation::Event*) {
+                                      point = observer.observe(now, HeldBy::parameter, true);
+                                      return false;
+                                    });
+  speak_of_scene(problem->model(), p, branch);
+  return branch;
 }
 
 class Points {
@@ -82,8 +210,9 @@ class Points {
     progress_.item = "response";
   }
 
-  std::vector<PointResponse> run() {
-    const ResponsesAt found = responses_at(model_, omega_, [this] { return go_on(); });
+  std::vector<PointResponse> run(std::span<const PointResponse> known) {
+    const ResponsesAt found = responses_at(
+        model_, omega_, [this] { return go_on(); }, guesses(known));
     if (stopped_) return {ended(Status::stopped, reasons::user, "stopped by the caller")};
     if (!found.unbounded.empty())
       return {ended(Status::failed, reasons::unbounded,
@@ -94,6 +223,12 @@ class Points {
     std::vector<PointResponse> all;
     for (const Vector& u : found.u) {
       all.push_back(at(found.problem, u));
+      if (found.several) all.back().found = static_cast<int>(found.u.size());
+      if (found.several && all.back().status == Status::complete)
+        all.back().stop.message += ", one of " + std::to_string(found.u.size()) + " on the branch from " +
+                                   frequency_text(found.window.lower, scene_.frequency_unit) + " to " +
+                                   frequency_text(found.window.upper, scene_.frequency_unit) +
+                                   ", by deflation, and on the branches through those";
       if (!found.doubt.empty()) all.back().doubt = found.doubt;
     }
     return all;
@@ -103,6 +238,20 @@ class Points {
   bool go_on() {
     if (!stopped_ && report_ && !report_(progress_)) stopped_ = true;
     return !stopped_;
+  }
+
+  // In the harmonics of the scene.
+  std::vector<Vector> guesses(std::span<const PointResponse> known) const {
+    ResponseBranch from;
+    const ResponseBranch to = described(*model_);
+    std::vector<Vector> all;
+    for (const PointResponse& each : known) {
+      if (each.point.unknowns.empty()) continue;
+      from.harmonics = each.harmonics;
+      const std::vector<double> unknowns = in_harmonics(each.point, from, to).unknowns;
+      all.push_back(Eigen::Map<const Vector>(unknowns.data(), static_cast<Eigen::Index>(unknowns.size())));
+    }
+    return all;
   }
 
   std::string place() const { return "at " + frequency_text(omega_, scene_.frequency_unit); }
@@ -156,7 +305,8 @@ class Points {
 
 }  // namespace
 
-ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega, const GoOn& go_on) {
+ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega, const GoOn& go_on,
+                         const std::vector<Vector>& guesses) {
   ResponsesAt found;
   const auto stopped = [&] { return go_on && !go_on(); };
   if (const auto growth = unbounded_resonance(model, omega); growth.unbounded) {
@@ -168,7 +318,7 @@ ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, doubl
   found.failure = first.failure;
   if (stopped() || !first.u) return found;
   found.u.push_back(*first.u);
-  add_others(model, omega, go_on, found);
+  if (may_have_several(*model)) Search(model, omega, go_on, found).run(guesses);
   return found;
 }
 
@@ -197,8 +347,9 @@ ResponseOfAmplitude response_of_amplitude(const std::shared_ptr<const model::Mod
 }
 
 std::vector<PointResponse> point_responses(const scene::Scene& scene, const PointSettings& settings,
-                                           const ProgressCallback& progress) {
-  return Points(scene, settings, progress).run();
+                                           const ProgressCallback& progress,
+                                           std::span<const PointResponse> known) {
+  return Points(scene, settings, progress).run(known);
 }
 
 }  // namespace arcslip::observables

@@ -12,23 +12,29 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace arcslip::observables {
 
-/// Responses at omega and the model's own parameters. If a law may have several responses, also those at
-/// which a frequency branch from omega/4 to 4 omega crosses omega, each once; responses on disconnected
-/// branches are not searched for. Without a response: the reason.
+/// Responses at omega and the model's own parameters, each once. If a law may have several responses: those
+/// at which the frequency branch to 4 omega passes omega, also next to a fold, from omega/4 on or from below
+/// the lowest natural frequency above omega/10; others that deflation finds (solutions_beside.hpp); and where
+/// the branches through each of them, in the same window, pass omega. One that none of these reaches is
+/// missing. Without a response: the reason.
 struct ResponsesAt {
   std::shared_ptr<const hbm::HbmProblem> problem;
   std::vector<continuation::Vector> u;
   std::string unbounded, failure;
-  std::string doubt;  // why others on that branch may be missing; empty: none are
+  bool several = false;          // may be: others were looked for
+  FrequencyWindow window{0, 0};  // in which, rad/s
+  std::string doubt;             // why others on those branches may be missing; empty: none are
 };
+/// guesses: unknowns near further ones.
 ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega,
-                         const GoOn& go_on = {});
+                         const GoOn& go_on = {}, const std::vector<continuation::Vector>& guesses = {});
 
 /// Of these, the one with the amplitude (m) nearest to the one given, with its stability where that is known.
 /// Without a response: the reason.
@@ -62,6 +68,7 @@ struct PointResponse {
   std::vector<std::pair<std::string, double>> parameters;  // every other parameter, by its name
   std::vector<int> harmonics;                              // n of the coefficients
   std::string doubt;                                       // why other responses may be missing; empty: none
+  int found = 0;  // how many responses a search found, where a law may have several; 0: none was made
   ResponsePoint point;
   std::optional<OffsetRange> offset_range;
   History history;  // over one period, both ends included
@@ -69,7 +76,9 @@ struct PointResponse {
 };
 
 /// All quantities of each response at settings.frequency, or one result with the reason why there is none.
+/// known: those of the scene with fewer harmonics, next to which responses are looked for as well.
 std::vector<PointResponse> point_responses(const scene::Scene& scene, const PointSettings& settings,
-                                           const ProgressCallback& progress = {});
+                                           const ProgressCallback& progress = {},
+                                           std::span<const PointResponse> known = {});
 
 }  // namespace arcslip::observables

@@ -123,6 +123,10 @@ double OrderSelection::error_by_change(const Truncation& found) const {
   return change / std::max(std::pow(ratio, rate_of_changes) - 1, 1.0);
 }
 
+bool OrderSelection::is_confirmed(const Truncation& found) const {
+  return found.responses == 0 || (!orders_.empty() && found.responses == last_.responses);
+}
+
 bool OrderSelection::rises(const Truncation& found) {
   const bool failed_twice = found.failed && last_.failed;
   error_ = found.estimate > 0 ? found.estimate / found.amplitude : found.estimate;
@@ -131,11 +135,12 @@ bool OrderSelection::rises(const Truncation& found) {
     error_ = std::isnan(found.estimate) || std::isnan(by_change) ? by_change : std::max(error_, by_change);
   }
   if (found.failed) error_ = no_value;
+  confirmed_ = is_confirmed(found);
   orders_.push_back(order_);
   errors_.push_back(error_);
   last_ = found;
   ended_ = found.ended;
-  if (ended_ || is_reached() || failed_twice || order_ >= highest_) return false;
+  if (ended_ || (is_reached() && confirmed_) || failed_twice || order_ >= highest_) return false;
   order_ = next();
   return true;
 }
@@ -147,7 +152,7 @@ void OrderSelection::give_up() {
 
 int OrderSelection::next() const {
   double growth = growth_where_unknown;
-  if (std::isfinite(error_)) {
+  if (std::isfinite(error_) && !(is_reached() && !confirmed_)) {
     double rate = friction_rate;
     if (const std::size_t n = errors_.size(); n > 1 && errors_[n - 2] > errors_[n - 1] && errors_[n - 1] > 0)
       rate = std::clamp(std::log(errors_[n - 2] / errors_[n - 1]) /
@@ -168,6 +173,9 @@ void OrderSelection::tell(results::End& end) const {
   const auto append = [](std::string& text, const std::string& more) {
     text += (text.empty() ? "" : "; ") + more;
   };
+  if (is_reached() && !confirmed_ && orders_.size() > 1)
+    append(end.doubt, "the number of responses changes with the harmonics, to " +
+                          std::to_string(last_.responses) + with);
   if (is_reached())
     append(end.remark, "accuracy " + to_two_digits(error_) + with);
   else if (!ended_ && end.status == results::Status::complete)

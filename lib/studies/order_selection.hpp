@@ -11,6 +11,9 @@
 // amplitudes in between (with damping ratios relative to the largest), the error is taken as c/((N/M)^2 - 1),
 // as if it fell as N^-2, or as c where that is less.
 //
+// Where responses were searched for, two orders have to find as many: too few harmonics may have none of
+// another one.
+//
 // The next order is the one at which the error, as N^-p, is e: p from the last two orders, and 3 at first,
 // which is that of friction. Samples, where a force is sampled, grow as N^(3/2), so that their error falls as
 // N^-3.
@@ -39,6 +42,7 @@ struct Truncation {
   bool flagged = false;                     // the estimate may be far too low
   std::vector<Landmark> landmarks{};
   double change = observables::no_value;  // of an amplitude where only parts were computed anew, relative
+  int responses = 0;                      // that a search found; 0: none was made
 };
 
 /// Of all branches of one combination. estimated: their points have estimates.
@@ -75,12 +79,14 @@ class OrderSelection {
 
  private:
   double error_by_change(const Truncation& found) const;
+  bool is_confirmed(const Truncation& found) const;
   int next() const;
 
   double wanted_;
   int highest_, period_, order_, samples_;
   bool ended_ = false, given_up_ = false;
   double error_ = observables::no_value;
+  bool confirmed_ = true;      // the number of responses
   std::vector<int> orders_{};  // computed, with their errors
   std::vector<double> errors_{};
   Truncation last_{};

@@ -201,7 +201,14 @@ const scene::StudyType& point() {
                         std::span<const PointResponse> all) -> std::optional<Truncation> {
          Truncation found;
          for (const PointResponse& each : all) add(each.status, each.stop, found), add(each.point, found);
+         if (!all.empty()) found.responses = all.front().found;
          return found;
+       },
+       .refine = [](const Case& at, const PointSettings& settings, std::span<const PointResponse> coarse,
+                    double /*accuracy*/,
+                    const results::ProgressCallback& progress) -> std::optional<Refined<PointResponse>> {
+         return Refined<PointResponse>{observables::point_responses(at.scene, settings, progress, coarse),
+                                       observables::no_value};
        }});
   return type;
 }

@@ -3,9 +3,9 @@
 
 #include "catch.hpp"
 #include "random.hpp"
-#include "volume.hpp"
 
 #include "lib/hbm/scenes.hpp"
+#include "optimize/tolerance_ranges.hpp"
 
 #include <arcslip/optimize/search/optimum.hpp>
 
@@ -21,8 +21,6 @@ using optimize::Optimum;
 using test_random::Random;
 
 namespace {
-
-constexpr Volume absorbers{"ARCSLIP_ABSORBERS", 12, 500};
 
 /// A host of mass, stiffness and force 1 with a damper cp; an absorber of mass mu with ka and ca.
 struct Absorber {
@@ -122,7 +120,7 @@ TEST_CASE("the tolerance range of an absorber ends where either of its peaks is 
 }
 
 TEST_CASE("tolerance ranges of random absorbers end where the closed form does") {
-  const std::uint64_t count = absorbers.count();
+  const std::uint64_t count = tolerance_ranges::absorbers.count();
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     CAPTURE(seed);
     Random random(seed);

@@ -8,10 +8,12 @@
 #include "fuzz/mutation.hpp"
 #include "lib/observables/extremes.hpp"
 #include "lib/observables/parameter_ranges.hpp"
+#include "lib/observables/responses_at.hpp"
 #include "lib/observables/structures.hpp"
 #include "lib/scene/bad_scenes.hpp"
 #include "lib/scene/mat_mutants.hpp"
 #include "optimize/limited_searches.hpp"
+#include "optimize/tolerance_ranges.hpp"
 
 #include <arcslip/results/text.hpp>
 
@@ -253,6 +255,15 @@ Random cases, the same on every machine but for the moments of signals. The test
       "higher minimum than LD_MMA comes to from a grid, by 0.08 % (seed 1111), the others within 1e-7 of the "
       "other ways or below them; 45 without a design within the limits; six stopped, none above the other "
       "ways; seven more cut after some minutes");
+  row("linear absorbers over one parameter or two: each end of a tolerance range, and twenty places on the "
+      "way "
+      "there, beside the closed form of the response",
+      tolerance_ranges::absorbers, 1, "tolerance ranges of random absorbers",
+      "500: all ends where the peak is 1 or 5 % up, to 1e-9");
+  row("frequencies from 1e-8 to 1e-2 beside a fold of a Duffing oscillator: how many responses are found, "
+      "beside "
+      "the cubic equation of one harmonic",
+      responses_at::beside_folds, 1, "beside a fold as many responses", "5000: as many at each");
   row("random structures of 1 to 6 masses with friction, some with cubic springs, in all units, names, "
       "orders and directions",
       structures::number, 1, "structures:",
