@@ -1,9 +1,8 @@
 #include <arcslip/observables/frequency_branch.hpp>
 
-#include <arcslip/observables/event_kinds.hpp>
-
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/model/stiffness_apart.hpp>
+#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/phase_resonance.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/study_branches.hpp>

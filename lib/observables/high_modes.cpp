@@ -228,7 +228,8 @@ Spring springs_at_rest(const model::Model& model, const Vector& p, Contacts cont
     if (!is_contact(law)) return law.stiffness(fields, direction, 0);
     if (contacts == Contacts::free) return 0.0;
     if (law.set_valued()) return rigid;
-    return std::min(law.traits(fields, direction).stiffness, rigid);
+    const double stiffness = law.traits(fields, direction).stiffness;
+    return std::isfinite(stiffness) ? stiffness : rigid;
   };
 }
 

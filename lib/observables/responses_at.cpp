@@ -26,7 +26,7 @@ constexpr double lowest_ratio =
 constexpr double below_natural = 0.5;
 constexpr int most_deflations = 16;
 constexpr int most_corrections = 20;
-constexpr double same_frequency = 1e-14, same_place = 1e-3;
+constexpr double at_frequency = 1e-14, not_moved = 1e-3;  // relative
 
 bool may_have_several(const model::Model& model) {
   const Vector p = model::defaults(model);
@@ -105,7 +105,7 @@ class Search {
   // Corrected at omega, where that leads no farther.
   void add_near(const Vector& guess, bool is_located) {
     const auto u = hbm::response_near(*found_.problem, p_, guess);
-    if (u && (!is_located || (*u - guess).norm() <= same_place * guess.norm()))
+    if (u && (!is_located || (*u - guess).norm() <= not_moved * guess.norm()))
       add(*u);
     else if (is_located)
       add(guess);
@@ -131,7 +131,7 @@ class Search {
       if (!corrector.correct(v, normal, false).converged) break;
       const double ratio = (omega_ - fold.parameter) / (v[n] - fold.parameter);
       if (!(ratio > 0)) break;
-      if (std::abs(v[n] - omega_) <= same_frequency * omega_) {
+      if (std::abs(v[n] - omega_) <= at_frequency * omega_) {
         add(v.head(n));
         return;
       }
@@ -155,7 +155,7 @@ class Search {
   void take(const FrequencyBranch& traced) {
     const continuation::Branch& branch = traced.branch;
     for (const continuation::Event& event : branch.events) {
-      if (event.monitor == event_kinds::passage && event.located) add_near(event.point.u, true);
+      if (event.monitor == event_kinds::passage) add_near(event.point.u, event.located);
       if (event.monitor != event_kinds::fold || event.after + 1 >= branch.points.size()) continue;
       for (const std::size_t i : {event.after, event.after + 1}) {
         const continuation::Point &fold = event.point, &beside = branch.points[i];

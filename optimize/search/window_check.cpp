@@ -14,21 +14,24 @@ namespace arcslip::optimize {
 using observables::FrequencyWindow;
 namespace {
 
-constexpr double as_high = 1e-6;             // relative
+constexpr double nearly_highest = 1e-6;      // relative
 constexpr std::size_t most_for_corners = 3;  // design parameters whose bounds are combined
-constexpr double beside = 1.1;               // of the outermost natural frequency: the end of a wider window
-constexpr double wider = 1.3;                // of its other end, where the amplitude is largest there
-constexpr double far_beyond = 10;            // of its end, where no natural frequency is left beyond
+constexpr int most_dofs_at_corners = 200;
+constexpr double past_mode = 1.1;  // of the outermost natural frequency: the end of a wider window
+constexpr double wider = 1.3;      // of its other end, where the amplitude is largest there
+constexpr double far_beyond = 10;  // of its end, where no natural frequency is left beyond
 constexpr int most_windows = 5;
-constexpr int digits = 3;       // of the ends of a window
+constexpr int end_digits = 3;   // of the ends of a window
 constexpr int told_digits = 5;  // of other numbers
 constexpr double rounding = 1e-9;
 
-/// The best design, and the corners of the bounds: of many parameters the two where all are at the same end.
+/// The best design, and the corners of the bounds: of many parameters the two where all are at the same end,
+/// and none of a large structure, whose modes take seconds.
 std::vector<std::vector<double>> designs_over_bounds(const DesignSpace& space,
                                                      const std::vector<double>& best) {
   const std::size_t n = best.size();
   std::vector<std::vector<double>> all{best};
+  if (space.model()->dofs > most_dofs_at_corners) return all;
   const std::size_t corners = n <= most_for_corners ? std::size_t{1} << n : 2;
   for (std::size_t corner = 0; corner < corners; ++corner) {
     std::vector<double> design(n);
@@ -66,7 +69,7 @@ std::vector<Span> resonances_over_bounds(DesignEvaluations& designs, std::size_t
 
 /// Rounded outwards, but by no digit that is rounding itself.
 double rounded(double value, bool up) {
-  const double unit = std::pow(10, std::floor(std::log10(value)) + 1 - digits), count = value / unit;
+  const double unit = std::pow(10, std::floor(std::log10(value)) + 1 - end_digits), count = value / unit;
   return (up ? std::ceil(count - rounding) : std::floor(count + rounding)) * unit;
 }
 
@@ -96,9 +99,9 @@ FrequencyWindow widened(const FrequencyWindow& window, bool upper, double factor
   return {rounded(window.lower / factor / unit, false) * unit, window.upper};
 }
 
-FrequencyWindow around(const FrequencyWindow& window, const Span& mode, double unit) {
-  return {std::min(window.lower, rounded(mode.lower / beside / unit, false) * unit),
-          std::max(window.upper, rounded(mode.upper * beside / unit, true) * unit)};
+FrequencyWindow window_around(const FrequencyWindow& window, const Span& mode, double unit) {
+  return {std::min(window.lower, rounded(mode.lower / past_mode / unit, false) * unit),
+          std::max(window.upper, rounded(mode.upper * past_mode / unit, true) * unit)};
 }
 
 /// The highest peak of a design in a window; nothing where it has no finite one.
@@ -137,7 +140,7 @@ std::optional<ValueAtEnd> value_at_end(DesignEvaluations& designs) {
   for (std::size_t c = 0; c < seen.size(); ++c)
     for (const Peak& peak : seen[c].state.peaks)
       if (is_end(peak.kind) && peak.amplitude > 0 &&
-          height(c, peak.amplitude) >= (1 - as_high) * highest[cases.group(c)])
+          height(c, peak.amplitude) >= (1 - nearly_highest) * highest[cases.group(c)])
         return ValueAtEnd{c, peak.kind == PeakKind::upper_end, peak.omega()};
   return {};
 }
@@ -150,7 +153,7 @@ BeyondEnd look_beyond(DesignEvaluations& designs, const ValueAtEnd& value, scene
   BeyondEnd found{true, text_of(spans, peaks.window(), unit)};
   const Span* mode = nearest_beyond(peaks.window(), spans, value.upper);
   bool is_far = !mode;  // the window reaches far beyond that end
-  FrequencyWindow window = mode ? around(peaks.window(), *mode, per_unit)
+  FrequencyWindow window = mode ? window_around(peaks.window(), *mode, per_unit)
                                 : widened(peaks.window(), value.upper, far_beyond, per_unit);
   for (int k = 0; k < most_windows; ++k) {
     const auto highest = highest_in(peaks, design, window);
@@ -164,6 +167,7 @@ BeyondEnd look_beyond(DesignEvaluations& designs, const ValueAtEnd& value, scene
     }
     const bool upper = highest->kind == PeakKind::upper_end;
     if (is_far && upper == value.upper) {
+      if (spans.empty()) break;  // natural frequencies are not known
       found.resonance = false;
       found.text += "; this design has no resonance beyond: the amplitude rises on, to " + there;
       return found;

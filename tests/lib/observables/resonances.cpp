@@ -107,6 +107,18 @@ TEST_CASE("a motion that no spring resists has no natural frequency") {
   CHECK(std::abs(found[0].omega - 3) < 1e-14);
 }
 
+TEST_CASE("a mass that only a contact holds has a natural frequency while it sticks") {
+  const scene::Scene scene =
+      scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
+    "dofs": ["a"], "masses": [{"name": "m", "at": "a", "value": 2}]},
+    "elements": [{"name": "d", "type": "jenkins", "at": "a", "stiffness": 18, "friction_coefficient": 0.5, "normal_load": 1}],
+    "excitation": [{"name": "f", "at": "a", "cosine": 1}], "response": {"at": "a"}})");
+  CHECK(modes(scene, Contacts::free).empty());
+  const auto stuck = modes(scene, Contacts::stuck);
+  REQUIRE(stuck.size() == 1);
+  CHECK(std::abs(stuck[0].omega - 3) < 1e-14);
+}
+
 TEST_CASE("in a sector they are those of the wave of the excitation") {
   for (const int order : {0, 1, 3, 5, 6}) {
     CAPTURE(order);
