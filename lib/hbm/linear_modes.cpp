@@ -13,7 +13,7 @@ constexpr double rigid = 1e-10;     // v^T K v over the terms that it is made of
 constexpr int shifts = 8;           // tried, by factors of 100
 // The damping of a mode grows to its own from this share of it.
 constexpr double least_damping = 1e-4, same_eigenvalue = 1e-12;
-constexpr int damping_steps = 60, most_iterations = 30;
+constexpr int damping_steps = 60, most_iterations = 30, most_coordinates = 300;
 
 // F = D X of the fundamental of an element, its own unknowns eliminated: D = k + i omega c.
 ComplexMatrix fundamental_stiffness(const elements::Harmonics& h, const elements::Law& law,
@@ -117,17 +117,19 @@ std::vector<LinearMode> linear_modes(const HbmProblem& problem, const Vector& p,
 }
 
 std::optional<DampedMode> damped_mode(const HbmProblem& problem, const Vector& p, const HbmEvaluator& at,
-                                      const LinearMode& undamped) {
+                                      const LinearMode& undamped, const std::function<bool()>& go_on) {
   const auto [M, C, K] = linearized(problem, p, &at, undamped.omega);
+  if (M.rows() > most_coordinates) return {};
   DampedMode mode{undamped.omega, 0, undamped.shape.cast<Complex>()};
   Complex mu = undamped.omega * undamped.omega;  // omega^2 (1 + 2 i zeta)
   for (int step = 0; step <= damping_steps; ++step) {
     const double share = std::pow(least_damping, 1 - static_cast<double>(step) / damping_steps);
     bool converged = false;
     for (int k = 0; k < most_iterations && !converged; ++k) {  // Rayleigh quotients, of symmetric matrices
+      if (go_on && !go_on()) return {};
       const ComplexMatrix A = K.cast<Complex>() + Complex(0, mode.omega * share) * C.cast<Complex>();
       const ComplexMatrix v = continuation::solve_complex(A - mu * M.cast<Complex>(), M * mode.shape);
-      if (!v.allFinite()) return {};
+      if (converged = !v.allFinite(); converged) break;  // the shift is the eigenvalue itself
       mode.shape = v.col(0) / v.col(0).norm();
       const Complex before = mu, mass = mode.shape.conjugate().dot(M * mode.shape);
       mu = mode.shape.conjugate().dot(A * mode.shape) / mass;

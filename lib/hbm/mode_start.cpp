@@ -209,7 +209,7 @@ ModeStart mode_start(const std::shared_ptr<const model::Model>& model, const mod
   start.problem = std::make_shared<const ModeProblem>(motions, *rest, omega);
   if (find_motion(shape, omega, linear.damping_ratio, amplitude, alone, go_on, start)) return start;
   if (alone) {  // where damping changes the mode
-    if (const auto damped = damped_mode(*motions, p, *at, linear)) {
+    if (const auto damped = damped_mode(*motions, p, *at, linear, go_on)) {
       const Complex moved = response.cast<Complex>().dot(damped->shape);
       if (std::abs(moved) > at_a_node * damped->shape.cwiseAbs().maxCoeff() &&
           find_motion(damped->shape / moved, damped->omega, damped->damping_ratio, amplitude, alone, go_on,

@@ -93,6 +93,7 @@ class Curves {
   std::string what() const { return kinds_.size() > 1 ? "bifurcation" : words_of(kinds_.front()); }
 
   std::string where_resonances_lie() const {
+    if (is_zero_of_function(kinds_.front())) return "";
     Vector p = model::defaults(*way_.model);
     p[way_.index] = way_.from;
     return text_of(resonances(*way_.model, p), window_, unit_);

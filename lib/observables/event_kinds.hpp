@@ -13,7 +13,7 @@ inline constexpr const char* fold = continuation::fold_event;
 inline constexpr const char* minimum = "minimum";  // of the amplitude over a parameter
 inline constexpr const char* maximum = "maximum";
 inline constexpr const char* cusp = continuation::cusp_event;
-inline constexpr const char* passage = "passage";  // of a frequency that is looked for
+inline constexpr const char* passage = "passage";                  // of a frequency that is looked for
 inline constexpr const char* phase_resonance = "phase_resonance";  // phase_resonance.hpp
 inline constexpr const char* turn = "turn";                        // of a curve of folds in the frequency
 inline constexpr const char* start = "start";  // of the branch of a mode, or of one that leaves another
@@ -29,7 +29,7 @@ inline constexpr const char* branch_point = "branch_point";  // continuation::br
 inline constexpr std::array of_stability = {period_doubling, neimark_sacker, symmetry_breaking,
                                             stability_lost};
 
-// One multiplier, or a pair of them, is on the unit circle.
+// One multiplier, or a pair of them, is on the unit circle, or jumps across it.
 inline constexpr std::array limits_of_stability = {fold,           branch_point,      period_doubling,
                                                    neimark_sacker, symmetry_breaking, stability_lost};
 

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -65,7 +66,8 @@ void speak_of_scene(const model::Model& model, const Vector& p, continuation::Br
   using continuation::StopReason;
   if (branch.stop.reason == StopReason::user || branch.stop.reason == StopReason::boundary) return;
   std::string& message = branch.stop.message;
-  if (const auto at = message.find(continuation::needs_tangent); at != std::string::npos) message.resize(at);
+  const std::string_view advice = continuation::needs_tangent;  // to callers of the engine
+  if (const auto at = message.find(advice); at != std::string::npos) message.erase(at, advice.size());
   message += causes(model, p);
   message += held_by_friction(model, p);
 }

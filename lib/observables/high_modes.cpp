@@ -17,11 +17,10 @@ using continuation::Vector;
 using model::LinearKind;
 
 constexpr int most_dofs_for_modes = 200;  // of which all modes are computed
-constexpr int most_dofs_at_rest = 1000;
-constexpr double rigid_body = 1e-10;  // v^T K v over the terms that it is made of
-constexpr double at_node = 1e-9;      // r . v or f . v over the largest that it might be
-constexpr double rigid_link = 1e6;    // of the largest stiffness: a contact that gives no way at all
-constexpr double with_mass = 1e-12;   // of the largest 1/(omega^2 + shift): others are massless
+constexpr double rigid_body = 1e-10;      // v^T K v over the terms that it is made of
+constexpr double at_node = 1e-9;          // r . v or f . v over the largest that it might be
+constexpr double rigid_link = 1e6;        // of the largest stiffness: a contact that gives no way at all
+constexpr double with_mass = 1e-12;       // of the largest 1/(omega^2 + shift): others are massless
 
 // The stiffness that an element has as a spring along its direction i, N/m.
 using Spring = std::function<double(std::size_t element, std::size_t i)>;
@@ -219,18 +218,57 @@ std::optional<std::vector<ResonantMode>> resonant_modes(const model::Model& mode
 
 namespace {
 
-// Contacts may be separated or slip; of a rigid one the stiffness is `rigid`.
-Spring springs_at_rest(const model::Model& model, const Vector& p, Contacts contacts, double rigid) {
-  return [&model, &p, contacts, rigid](std::size_t e, std::size_t i) {
-    const elements::Law& law = *model.elements[e].law;
-    const std::vector<double> fields = model.elements[e].fields(p);
-    const int direction = static_cast<int>(i);
-    if (!is_contact(law)) return law.stiffness(fields, direction, 0);
-    if (contacts == Contacts::free) return 0.0;
-    if (law.set_valued()) return rigid;
-    const double stiffness = law.traits(fields, direction).stiffness;
-    return std::isfinite(stiffness) ? stiffness : rigid;
-  };
+// df/dq at rest of an element without a contact, symmetric; of one with a memory its largest stiffnesses.
+Eigen::MatrixXd tangent_at_rest(const elements::Law& law, const std::vector<double>& fields) {
+  const int d = law.directions();
+  if (law.memory() > 0) {
+    Eigen::VectorXd largest(d);
+    for (int i = 0; i < d; ++i) largest[i] = law.stiffness(fields, i, 0);
+    return largest.asDiagonal();
+  }
+  elements::StepEnd at(d, 0);
+  Eigen::VectorXd memory(0);
+  law.begin(fields, Eigen::VectorXd::Zero(d), memory, at);
+  return 0.5 * (at.f_q + at.f_q.transpose());
+}
+
+// Of an element in its directions. rigid: of friction without a stiffness that sticks.
+Eigen::MatrixXd tangent(const elements::Law& law, const std::vector<double>& fields, Contacts contacts,
+                        double rigid) {
+  if (!is_contact(law)) return tangent_at_rest(law, fields);
+  Eigen::VectorXd k = Eigen::VectorXd::Zero(law.directions());
+  for (int i = 0; contacts == Contacts::stuck && i < law.directions(); ++i) {
+    const double stiffness = law.traits(fields, i).stiffness;
+    k[i] = !law.set_valued() && std::isfinite(stiffness) ? stiffness : rigid;
+  }
+  return k.asDiagonal();
+}
+
+// Adds the tangents of all elements, in the wave of a diameter for a sector. False: directions of one element
+// are coupled in a sector, for which there is no sum.
+bool add_tangents(const model::Model& model, const Vector& p, Contacts contacts, double rigid, int diameter,
+                  Eigen::MatrixXd& K) {
+  for (const auto& element : model.elements) {
+    const Eigen::MatrixXd k = tangent(*element.law, element.fields(p), contacts, rigid);
+    const auto direction = [&](Eigen::Index i) { return element.directions[static_cast<std::size_t>(i)]; };
+    for (Eigen::Index i = 0; i < k.rows(); ++i) {
+      if (model.sector) {
+        model::add_outer(
+            k(i, i), direction(i),
+            element.next.empty() ? model::Direction() : element.next[static_cast<std::size_t>(i)],
+            turn(*model.sector, diameter), K);
+      } else {
+        model::add_outer(k(i, i), direction(i), K);
+      }
+      for (Eigen::Index j = 0; j < i; ++j) {
+        if (k(i, j) == 0) continue;
+        if (model.sector) return false;
+        const Eigen::MatrixXd both = k(i, j) * Vector(direction(i)) * Vector(direction(j)).transpose();
+        K += both + both.transpose();
+      }
+    }
+  }
+  return true;
 }
 
 bool moves(const Vector& direction, const Vector& v) {
@@ -252,20 +290,16 @@ bool is_contact(const elements::Law& law) {
 }
 
 std::optional<std::vector<ModeAtRest>> modes_at_rest(const model::Model& model, const Vector& p,
-                                                     Contacts contacts) {
+                                                     Contacts contacts, int most_dofs) {
   const bool in_waves = model.sector.has_value();
-  if (model.dofs * (in_waves ? 2 : 1) > most_dofs_at_rest || !model::is_symmetric(model)) return {};
+  if (model.dofs * (in_waves ? 2 : 1) > most_dofs || !model::is_symmetric(model)) return {};
   const int diameter = in_waves ? model.sector->diameter(model.force_harmonic) : 0;
   const auto sum = [&](LinearKind kind) {
     return in_waves ? sum_in_wave(model, kind, p, diameter) : model::sum_of(model, kind, p);
   };
   const Eigen::MatrixXd M = sum(LinearKind::mass);
   Eigen::MatrixXd K = sum(LinearKind::spring);
-  const Spring spring = springs_at_rest(model, p, contacts, rigid_link * K.cwiseAbs().maxCoeff());
-  if (in_waves)
-    add_elements(model, spring, diameter, K);
-  else
-    K = whole_stiffness(model, p, spring);
+  if (!add_tangents(model, p, contacts, rigid_link * K.cwiseAbs().maxCoeff(), diameter, K)) return {};
   const ModesWithMass modes = modes_with_mass(M, K);
   std::vector<ModeAtRest> all;
   for (Eigen::Index k = 0; k < modes.squares.size(); k += in_waves ? 2 : 1) {  // in waves all are double

@@ -72,13 +72,14 @@ bool has_contacts(const model::Model& model) {
 
 }  // namespace
 
-Resonances resonances(const model::Model& model, const continuation::Vector& p) {
+Resonances resonances(const model::Model& model, const continuation::Vector& p, int most_dofs) {
   Resonances all;
   all.harmonic = model.force_harmonic;
-  const auto free = modes_at_rest(model, p, Contacts::free);
+  const auto free = modes_at_rest(model, p, Contacts::free, most_dofs);
   if (!free) return all;
   all.free = at_excitation(*free, all.harmonic);
-  if (has_contacts(model)) all.stuck = at_excitation(*modes_at_rest(model, p, Contacts::stuck), all.harmonic);
+  if (has_contacts(model))
+    all.stuck = at_excitation(*modes_at_rest(model, p, Contacts::stuck, most_dofs), all.harmonic);
   return all;
 }
 
@@ -109,7 +110,7 @@ std::string text_of(const Resonances& all, const FrequencyWindow& window, scene:
 
 std::string text_of_resonances(const scene::Scene& scene, const scene::StopRequest& stop) {
   const model::Model model = model::build(scene, stop);
-  return text_of(resonances(model, model::defaults(model)), scene.frequency_unit);
+  return text_of(resonances(model, model::defaults(model), many_dofs), scene.frequency_unit);
 }
 
 void tell_missing_peak(const model::Model& model, const FrequencyWindow& window, scene::FrequencyUnit unit,

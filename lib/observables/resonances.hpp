@@ -19,7 +19,7 @@ struct Resonances {
   int harmonic = 1;
 };
 
-Resonances resonances(const model::Model& model, const continuation::Vector& p);
+Resonances resonances(const model::Model& model, const continuation::Vector& p, int most_dofs = few_dofs);
 
 /// The lowest ones, as a sentence: "natural frequencies with all contacts free: 16.71 and 104.72 Hz;
 /// stuck: 17.254 and 105.11 Hz". Empty where they are not known.

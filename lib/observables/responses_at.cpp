@@ -3,9 +3,9 @@
 #include <arcslip/continuation/tracing/corrector.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/high_modes.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/refined_parts.hpp>
-#include <arcslip/observables/resonances.hpp>
 #include <arcslip/observables/solutions_beside.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
@@ -26,7 +26,7 @@ constexpr double lowest_ratio =
 constexpr double below_natural = 0.5;
 constexpr int most_deflations = 16;
 constexpr int most_corrections = 20;
-constexpr double at_frequency = 1e-14, not_moved = 1e-3;  // relative
+constexpr double at_frequency = 1e-14, not_moved = 1e-3, next_to = 1e-2;  // relative
 
 bool may_have_several(const model::Model& model) {
   const Vector p = model::defaults(model);
@@ -40,9 +40,10 @@ bool may_have_several(const model::Model& model) {
 
 FrequencyWindow search_window(const model::Model& model, double omega) {
   FrequencyWindow window{omega / search_ratio, omega * search_ratio};
-  for (const ModeAtRest& mode : resonances(model, model::defaults(model)).free)
-    if (mode.omega > omega / lowest_ratio) {
-      window.lower = std::min(window.lower, below_natural * mode.omega);
+  const auto modes = modes_at_rest(model, model::defaults(model), Contacts::free);
+  for (const ModeAtRest& mode : modes.value_or(std::vector<ModeAtRest>()))
+    if (const double at = mode.omega / model.force_harmonic; at > omega / lowest_ratio) {
+      window.lower = std::min(window.lower, below_natural * at);
       break;
     }
   return window;
@@ -70,12 +71,17 @@ class Search {
     if (const auto& stop = swept.branch.stop;
         stop.reason == StopReason::boundary && stop.value != window_.upper)
       doubt(stop.message);
-    // Newton's method may have ended near a response that it does not come to.
+    // Newton's method may have ended next to a response that it does not come to.
     const auto corrected = hbm::response_near(*found_.problem, p_, first);
-    if (corrected ? !is_among(*corrected) : found_.u.empty()) {
-      found_.u.insert(found_.u.begin(), corrected.value_or(first));
-      follow(found_.u.front());
+    const bool is_next = std::any_of(found_.u.begin(), found_.u.end(), [&](const Vector& other) {
+      return (first - other).norm() <= next_to * other.norm();
+    });
+    const Vector start = corrected.value_or(first);
+    if (corrected ? !is_among(start) : !is_next) {
+      found_.u.push_back(start);
+      follow(start);
     }
+    put_first(start);
     for (const Vector& guess : guesses)
       if (const auto u = hbm::response_near(*found_.problem, p_, guess); u && !stopped() && add(*u))
         follow(*u);
@@ -93,6 +99,14 @@ class Search {
     return std::any_of(found_.u.begin(), found_.u.end(), [&](const Vector& other) {
       return (u - other).norm() <= same_solution * other.norm();
     });
+  }
+
+  // The response that is found from rest comes first, as where no others are looked for.
+  void put_first(const Vector& u) {
+    const auto nearest =
+        std::min_element(found_.u.begin(), found_.u.end(),
+                         [&](const Vector& a, const Vector& b) { return (a - u).norm() < (b - u).norm(); });
+    std::rotate(found_.u.begin(), nearest, nearest + 1);
   }
 
   // Whether it is a further one.
@@ -225,7 +239,9 @@ class Points {
       all.push_back(at(found.problem, u));
       if (found.several) all.back().found = static_cast<int>(found.u.size());
       if (found.several && all.back().status == Status::complete)
-        all.back().stop.message += ", one of " + std::to_string(found.u.size()) + " on the branch from " +
+        all.back().stop.message += (found.u.size() == 1 ? ", the only one found on the branch from "
+                                                        : ", one of " + std::to_string(found.u.size()) +
+                                                              " found on the branch from ") +
                                    frequency_text(found.window.lower, scene_.frequency_unit) + " to " +
                                    frequency_text(found.window.upper, scene_.frequency_unit) +
                                    ", by deflation, and on the branches through those";

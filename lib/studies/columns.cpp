@@ -204,29 +204,33 @@ std::vector<UnstablePart> unstable_parts(const observables::ResponseBranch& bran
   };
   std::vector<UnstablePart> parts;
   bool now = false;
-  const auto go_to = [&](bool unstable, const ResponsePoint& at) {
-    const bool goes_on = unstable && !parts.empty() && parts.back().second == &at;  // no part is empty
-    const bool is_empty = !unstable && now && parts.back().first == &at;
-    if (is_empty)
-      parts.pop_back();
-    else if (unstable && !now && !goes_on)
+  const auto cross = [&](const ResponsePoint& at) {
+    if (!now)
       parts.push_back({&at, &at});
-    else if (!unstable && now)
+    else
       parts.back().second = &at;
-    now = unstable;
+    now = !now;
   };
   auto event = branch.events.begin();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const observables::ResponseEvent* last = nullptr;
+    const ResponsePoint* last = nullptr;
+    std::vector<const ResponsePoint*> crossings;  // of the circle: one side has no other multipliers outside
     for (; event != branch.events.end() && event->after < i; ++event) {
-      if (i == 0 || !branch.of.empty() || !is_limit(*event)) continue;
-      // Its own multipliers cross the circle: one side has no others outside. Not so on a curve of such
-      // points.
-      last = &*event;
-      if (event->point.stability->unstable == 0) go_to(!now, event->point);
+      if (i == 0 || !branch.of.empty() || !is_limit(*event))
+        continue;  // on a curve of limits none is crossed
+      last = &event->point;
+      if (event->point.stability->unstable == 0) crossings.push_back(last);
     }
-    if (now != is_unstable(i)) go_to(is_unstable(i), last ? last->point : now ? points[i - 1] : points[i]);
-    if (now && !parts.empty()) parts.back().second = &points[i];
+    const bool crosses = now != is_unstable(i);
+    if (crossings.size() % 2 !=
+        (crosses ? 1 : 0)) {  // multipliers that touch the circle, or jump: the point decides
+      if (crossings.empty())
+        crossings.push_back(last ? last : now ? &points[i - 1] : &points[i]);
+      else
+        crossings.erase(crossings.begin());
+    }
+    for (const ResponsePoint* at : crossings) cross(*at);
+    if (now) parts.back().second = &points[i];
   }
   return parts;
 }

@@ -173,8 +173,9 @@ void OrderSelection::tell(results::End& end) const {
   const auto append = [](std::string& text, const std::string& more) {
     text += (text.empty() ? "" : "; ") + more;
   };
-  if (is_reached() && !confirmed_ && orders_.size() > 1)
-    append(end.doubt, "the number of responses changes with the harmonics, to " +
+  if (is_reached() && !confirmed_)
+    append(end.doubt, (orders_.size() > 1 ? "the number of responses changes with the harmonics, to "
+                                          : "no second order confirms the number of responses, ") +
                           std::to_string(last_.responses) + with);
   if (is_reached())
     append(end.remark, "accuracy " + to_two_digits(error_) + with);

@@ -336,14 +336,17 @@ std::unique_ptr<OptimalityEvaluator> CurveOfOptima::move_to_end(Piece& piece) {
   return at;
 }
 
-// As of a single optimum.
+// As of a single optimum, unless the first one lies there and has no resonance beyond.
 void CurveOfOptima::check_window() {
+  const auto at_end = [](const OptimumPoint& point) {
+    return std::any_of(point.peaks.begin(), point.peaks.end(),
+                       [](const OptimumPeak& peak) { return is_end(peak.kind); });
+  };
+  if (curve_.start.status == Status::complete && at_end(curve_.points.front())) return;
   std::size_t count = 0;
   double from = 0, to = 0;
   for (const OptimumPoint& point : curve_.points) {
-    const bool at_end = std::any_of(point.peaks.begin(), point.peaks.end(),
-                                    [](const OptimumPeak& peak) { return is_end(peak.kind); });
-    if (!at_end) continue;
+    if (!at_end(point)) continue;
     if (count++ == 0) from = point.along;
     to = point.along;
   }

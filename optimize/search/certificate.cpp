@@ -18,6 +18,7 @@ constexpr double same_amplitude = 1e-7;  // relative
 constexpr double same_response = 1e-6;   // relative
 constexpr int most_steps = 60;           // to an end of a tolerance range
 constexpr double range_accuracy = 1e-6;  // of the share
+constexpr int most_rounds_of_range = 4;  // each nearer to the optimum
 constexpr double seen_again = 1e-4;      // of the share: a level that a new response shows as well
 constexpr double narrow = 1e-9;  // relative: a bracket of the place where a limit is reached, or V jumps
 constexpr int deflation_iterations = 40;
@@ -163,7 +164,7 @@ class Certifier {
         outer = value;
         beyond = seen;
       }
-      if (beyond && std::abs(outer - inner) <= narrow * std::abs(outer))
+      if (beyond && std::abs(outer - inner) <= narrow * std::max(std::abs(outer), std::abs(design_[way.k])))
         return inner;  // a limit, or a jump of V
       double next = beyond ? 0.5 * (inner + outer) : way.bound();
       const bool bisects = step % 3 == 2;  // limits are nearly linear and V nearly a power of the distance
@@ -171,7 +172,8 @@ class Certifier {
         const double share_of_way =
             std::max(0.0, -inner_margin) / (beyond->margin - std::min(0.0, inner_margin));
         next = inner + share_of_way * (outer - inner);
-        if (std::abs(next - inner) <= narrow * std::abs(outer)) return inner;
+        if (std::abs(next - inner) <= narrow * std::max(std::abs(outer), std::abs(design_[way.k])))
+          return inner;
       } else if (!(beyond && bisects) && std::isfinite(seen.level)) {
         const double distance = value - design_[way.k], power = seen.slope * distance;
         const double newton =
@@ -186,17 +188,24 @@ class Certifier {
   }
 
   // The same by peaks that are tracked, and where new responses at the end or half way show that one was
-  // lost, by new responses alone.
+  // lost, by new responses alone, which are checked half way as well.
   double range_end(const Way& way, double guess, End& end) {
     const double at = design_[way.k];
-    const double found = search_end(way, guess, way.bound(), {}, false, end);
-    if (go_on_ && !go_on_()) return found;
-    for (const double share_of_way : {0.5, 1.0}) {
-      const double value = at + share_of_way * (found - at);
-      const Seen seen = see(way, value, true);
-      if (!is_within(way, seen)) return search_end(way, 0.5 * (at + value), value, seen, true, end);
-      const bool short_of_it = end == End::level && seen.level < target(way) - seen_again * way.share;
-      if (share_of_way == 1 && short_of_it) return search_end(way, found, way.bound(), {}, true, end);
+    double found = search_end(way, guess, way.bound(), {}, false, end);
+    for (int round = 0; round < most_rounds_of_range && (!go_on_ || go_on_()); ++round) {
+      const double middle = 0.5 * (at + found);
+      if (const Seen seen = see(way, middle, true); !is_within(way, seen)) {
+        found = search_end(way, 0.5 * (at + middle), middle, seen, true, end);
+        continue;
+      }
+      if (round > 0) break;
+      const Seen seen = see(way, found, true);
+      if (!is_within(way, seen))
+        found = search_end(way, middle, found, seen, true, end);
+      else if (end == End::level && seen.level < target(way) - seen_again * way.share)
+        found = search_end(way, found, way.bound(), {}, true, end);
+      else
+        break;
     }
     return found;
   }

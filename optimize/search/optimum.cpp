@@ -264,12 +264,16 @@ void Search::check_window() {
                             observables::frequency_text(value->omega, scene_.frequency_unit);
   try {
     const BeyondEnd beyond = look_beyond(designs_, *value, scene_.frequency_unit);
-    if (!beyond.resonance) return note(where + beyond.text);
+    if (!beyond.resonance || result_.stop.reason == reasons::flat) return note(where + beyond.text);
     result_.status = Status::stopped;
     result_.stop.reason = reasons::end_of_window;
     result_.stop.message = where + ", where it is no resonance peak" + beyond.text;
   } catch (const Interrupted&) {
     interrupted();
+  } catch (const std::exception& thrown) {
+    result_.status = Status::stopped;
+    result_.stop.reason = reasons::end_of_window;
+    result_.stop.message = where + "; a response beyond it failed: " + thrown.what();
   }
 }
 

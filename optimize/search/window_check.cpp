@@ -44,24 +44,34 @@ std::vector<std::vector<double>> designs_over_bounds(const DesignSpace& space,
   return all;
 }
 
-/// Where the resonance of a mode may lie, from free to stuck contacts, rad/s.
+/// Where the resonance of a mode may lie, from free to stuck contacts, rad/s; from 0 on where no spring holds
+/// it while they are free.
 struct Span {
   double lower, upper;
 };
 
-std::vector<Span> resonances_over_bounds(DesignEvaluations& designs, std::size_t in_case) {
+struct Spans {
+  std::vector<Span> modes;
+  bool contacts = false;
+};
+
+Spans resonances_over_bounds(DesignEvaluations& designs, std::size_t in_case) {
   const PeakAmplitude& peaks = designs.cases().peaks(in_case);
-  std::vector<Span> spans;
+  Spans spans;
   for (const std::vector<double>& design : designs_over_bounds(designs.space(), designs.best().design)) {
     const auto model = peaks.model_at(design);
     const observables::Resonances found = observables::resonances(*model, model::defaults(*model));
     const auto& stuck = found.stuck.empty() ? found.free : found.stuck;
-    const std::size_t count = std::min(found.free.size(), stuck.size());
-    if (spans.empty())
-      for (std::size_t j = 0; j < count; ++j) spans.push_back({found.free[j].omega, stuck[j].omega});
-    for (std::size_t j = 0; j < std::min(count, spans.size()); ++j) {
-      spans[j].lower = std::min(spans[j].lower, found.free[j].omega);
-      spans[j].upper = std::max(spans[j].upper, stuck[j].omega);
+    spans.contacts = spans.contacts || !found.stuck.empty();
+    // By number from the highest: what no spring holds is missing below.
+    const std::size_t count = std::max({found.free.size(), stuck.size(), spans.modes.size()});
+    const auto at = [count](const std::vector<observables::ModeAtRest>& modes, std::size_t j) {
+      return j + modes.size() < count ? 0 : modes[j + modes.size() - count].omega;
+    };
+    spans.modes.insert(spans.modes.begin(), count - spans.modes.size(), Span{HUGE_VAL, 0});
+    for (std::size_t j = 0; j < count; ++j) {
+      Span& mode = spans.modes[j];
+      mode = {std::min(mode.lower, at(found.free, j)), std::max(mode.upper, at(stuck, j))};
     }
   }
   return spans;
@@ -100,7 +110,8 @@ FrequencyWindow widened(const FrequencyWindow& window, bool upper, double factor
 }
 
 FrequencyWindow window_around(const FrequencyWindow& window, const Span& mode, double unit) {
-  return {std::min(window.lower, rounded(mode.lower / past_mode / unit, false) * unit),
+  const double lower = mode.lower > 0 ? rounded(mode.lower / past_mode / unit, false) * unit : window.lower;
+  return {std::min(window.lower, lower),
           std::max(window.upper, rounded(mode.upper * past_mode / unit, true) * unit)};
 }
 
@@ -115,11 +126,14 @@ std::optional<Peak> highest_in(const PeakAmplitude& peaks, const std::vector<dou
 
 /// "; over the bounds resonances may lie, from free to stuck contacts, at 40.1 to 47 Hz", up to the first one
 /// above the window.
-std::string text_of(const std::vector<Span>& spans, const FrequencyWindow& window,
-                    scene::FrequencyUnit unit) {
+std::string text_of(const Spans& spans, const FrequencyWindow& window, scene::FrequencyUnit unit) {
   std::string said;
-  for (const Span& each : spans) {
-    said += said.empty() ? "; over the bounds resonances may lie, from free to stuck contacts, at " : ", ";
+  for (const Span& each : spans.modes) {
+    if (each.upper == 0) continue;
+    const std::string beginning =
+        spans.contacts ? "; over the bounds resonances may lie, from free to stuck contacts, at "
+                       : "; over the bounds natural frequencies lie at ";
+    said += said.empty() ? beginning : ", ";
     said += between(each.lower, each.upper, unit);
     if (each.lower > window.upper) break;
   }
@@ -149,9 +163,9 @@ BeyondEnd look_beyond(DesignEvaluations& designs, const ValueAtEnd& value, scene
   const PeakAmplitude& peaks = designs.cases().peaks(value.in_case);
   const std::vector<double>& design = designs.best().design;
   const double per_unit = scene::to_rad_per_s(unit);
-  const std::vector<Span> spans = resonances_over_bounds(designs, value.in_case);
+  const Spans spans = resonances_over_bounds(designs, value.in_case);
   BeyondEnd found{true, text_of(spans, peaks.window(), unit)};
-  const Span* mode = nearest_beyond(peaks.window(), spans, value.upper);
+  const Span* mode = nearest_beyond(peaks.window(), spans.modes, value.upper);
   bool is_far = !mode;  // the window reaches far beyond that end
   FrequencyWindow window = mode ? window_around(peaks.window(), *mode, per_unit)
                                 : widened(peaks.window(), value.upper, far_beyond, per_unit);
@@ -167,7 +181,7 @@ BeyondEnd look_beyond(DesignEvaluations& designs, const ValueAtEnd& value, scene
     }
     const bool upper = highest->kind == PeakKind::upper_end;
     if (is_far && upper == value.upper) {
-      if (spans.empty()) break;  // natural frequencies are not known
+      if (spans.modes.empty()) break;  // natural frequencies are not known
       found.resonance = false;
       found.text += "; this design has no resonance beyond: the amplitude rises on, to " + there;
       return found;

@@ -109,12 +109,14 @@ TEST_CASE("along one line of the plane the coupled spring is a cubic spring") {
   for (const double w : {0.7, 1.1, 1.3}) {
     const auto plane_responses = observables::point_responses(s, {.frequency = w});
     const auto responses = observables::point_responses(duffing, {.frequency = w});
-    REQUIRE(plane_responses.size() == responses.size());
-    for (std::size_t i = 0; i < responses.size(); ++i) {
-      REQUIRE(plane_responses[i].status == observables::Status::complete);
-      CHECK(std::abs(plane_responses[i].point.amplitude - responses[i].point.amplitude) < 1e-10);
-      CHECK(std::abs(plane_responses[i].point.energy_viscous - responses[i].point.energy_viscous) < 1e-10);
-    }
+    // In the plane there may be others, out of that line.
+    REQUIRE(plane_responses.size() >= responses.size());
+    for (const auto& response : responses)
+      CHECK(std::any_of(plane_responses.begin(), plane_responses.end(), [&](const auto& other) {
+        return other.status == observables::Status::complete &&
+               std::abs(other.point.amplitude - response.point.amplitude) < 1e-10 &&
+               std::abs(other.point.energy_viscous - response.point.energy_viscous) < 1e-10;
+      }));
   }
 }
 

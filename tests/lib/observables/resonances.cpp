@@ -65,11 +65,27 @@ TEST_CASE("natural frequencies are those of the free structure, and of the one w
   for (const std::size_t k : {0U, 1U}) CHECK(std::abs(stuck[k].omega / expected[k] - 1) < 1e-14);
 }
 
-TEST_CASE("a cubic spring acts with its stiffness at rest, a gap and rigid friction are open or closed") {
+TEST_CASE("springs act with their tangent at rest, a gap and rigid friction are open or closed") {
   const auto with = [](const std::string& element, Contacts contacts) {
     return modes(pair(R"({"at": "a"})", R"({"name": "f", "at": "a", "cosine": 1})", element), contacts);
   };
-  const std::string cubic = R"({"name": "e", "type": "cubic_spring", "at": "a", "linear": 5, "cubic": 7})";
+  // k q + 7 q^3 at the first mass, and k q_1 q_2 between both: with a negative k softer than at rest it could
+  // be.
+  for (const double k : {5.0, -3.0}) {
+    const auto spring =
+        with(R"({"name": "e", "type": "polynomial_spring", "at": "a", "coefficients": {"1": )" +
+                 std::to_string(k) + R"(, "3": 7}})",
+             Contacts::free);
+    const auto expected = with_spring_at_first(k);
+    CHECK(std::abs(spring[0].omega - expected[0]) < 1e-13);
+    CHECK(std::abs(spring[1].omega - expected[1]) < 1e-13);
+    const auto coupling = with(
+        R"({"name": "e", "type": "polynomial_coupling", "potential": [{"powers": {"a": 1, "b": 1}, "value": )" +
+            std::to_string(k) + R"(}]})",
+        Contacts::stuck);
+    CHECK(std::abs(coupling[0].omega - std::sqrt((8 + k) / 2)) < 1e-13);  // both masses alike
+    CHECK(std::abs(coupling[1].omega - std::sqrt((50 - k) / 2)) < 1e-13);
+  }
   const std::string gap = R"({"name": "e", "type": "gap_spring", "at": "a", "stiffness": 5, "gap": 0.1})";
   const std::string rigid =
       R"({"name": "e", "type": "coulomb", "at": "a", "friction_coefficient": 0.5, "normal_load": 1})";

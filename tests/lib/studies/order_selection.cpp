@@ -437,3 +437,24 @@ TEST_CASE("the accuracy of a mode holds between the ends of its range, or is not
   CHECK(std::abs((*nearest)["omega"].get<double>() / 24.696264 - 1) < 2e-3);
   CHECK(std::abs((*nearest)["damping_ratio"].get<double>() / 0.0386406 - 1) < 2e-2);
 }
+
+TEST_CASE(
+    "responses that were searched for need two orders that find as many, or it is said that none confirms "
+    "them") {
+  const auto run = [](int highest, const std::vector<int>& counts) {
+    OrderSelection selection(settings(1e-3, highest));
+    std::size_t k = 0;
+    for (bool rises = true; rises; ++k)
+      rises = selection.rises(
+          {.amplitude = 1, .estimate = 1e-6, .responses = counts[std::min(k, counts.size() - 1)]});
+    results::End end;
+    selection.tell(end);
+    return std::pair(k, end.doubt);
+  };
+  CHECK(run(55, {0}) == std::pair<std::size_t, std::string>(1, ""));  // none was made
+  CHECK(run(55, {2}) == std::pair<std::size_t, std::string>(2, ""));
+  CHECK(run(55, {1, 3}) == std::pair<std::size_t, std::string>(3, ""));
+  CHECK(run(7, {1, 3}).second ==
+        "the number of responses changes with the harmonics, to 3 with harmonics up to 7");
+  CHECK(run(3, {2}).second == "no second order confirms the number of responses, 2 with harmonics up to 3");
+}
