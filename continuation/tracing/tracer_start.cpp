@@ -137,7 +137,8 @@ bool Tracer::Impl::begin() {
                    (main_.failure().empty() ? singular_start(given) : ""));
   if (!correction.converged && correction.evaluated) {
     std::string doubts = jacobian_.doubt(s_.here.v);
-    if (doubts.empty() && correction.linear && !given) doubts = std::string("; it converges slowly") + needs_tangent;
+    if (doubts.empty() && correction.linear && !given)
+      doubts = std::string("; it converges slowly") + needs_tangent;
     return end(StopReason::start_failed, correction.last, options_.newton.tolerance,
                "the corrector did not converge at the start (" + std::to_string(correction.iterations) +
                    " iterations)" + doubts + because(main_.failure()));

@@ -45,12 +45,14 @@ struct ModeAtRest {
   bool driven = true;    // the lowest harmonic of the excitation drives it
 };
 
-/// In increasing order, without rigid-body motions, and those of an unstable rest. Elements that are no
-/// contacts have their tangent at rest, those with a memory their largest stiffness. Of a sector of a ring in
-/// the wave of the lowest harmonic of the excitation, where all respond and are driven. Nothing for
-/// gyroscopic structures, for directions of one element that are coupled in a sector, and for more than
-/// most_dofs degrees of freedom (twice those of a sector): 200 take some 10 ms, 1000 a second.
+/// Of modes_at_rest(): 200 degrees of freedom take some 10 ms, 1000 a second.
 inline constexpr int few_dofs = 200, many_dofs = 1000;
+
+/// In increasing order, without rigid-body motions and without those of an unstable rest. Elements that are
+/// no contacts have their tangent at rest, those with a memory their largest stiffness. Of a sector of a ring
+/// in the wave of the lowest harmonic of the excitation, where all respond and are driven. Nothing for
+/// gyroscopic structures, for directions of one element that are coupled in a sector, and for more than
+/// most_dofs degrees of freedom, counted twice in a sector.
 std::optional<std::vector<ModeAtRest>> modes_at_rest(const model::Model& model, const continuation::Vector& p,
                                                      Contacts contacts, int most_dofs = few_dofs);
 

@@ -76,12 +76,13 @@ class Search {
     const bool is_next = std::any_of(found_.u.begin(), found_.u.end(), [&](const Vector& other) {
       return (first - other).norm() <= next_to * other.norm();
     });
-    const Vector start = corrected.value_or(first);
+    const bool is_off = corrected && (first - *corrected).norm() > same_solution * corrected->norm();
+    const Vector start = is_off ? *corrected : first;
     if (corrected ? !is_among(start) : !is_next) {
       found_.u.push_back(start);
       follow(start);
     }
-    put_first(start);
+    if (corrected || !is_next) put_first(start);
     for (const Vector& guess : guesses)
       if (const auto u = hbm::response_near(*found_.problem, p_, guess); u && !stopped() && add(*u))
         follow(*u);
@@ -106,6 +107,7 @@ class Search {
     const auto nearest =
         std::min_element(found_.u.begin(), found_.u.end(),
                          [&](const Vector& a, const Vector& b) { return (a - u).norm() < (b - u).norm(); });
+    *nearest = u;
     std::rotate(found_.u.begin(), nearest, nearest + 1);
   }
 

@@ -60,7 +60,8 @@ Spans resonances_over_bounds(DesignEvaluations& designs, std::size_t in_case) {
   Spans spans;
   for (const std::vector<double>& design : designs_over_bounds(designs.space(), designs.best().design)) {
     const auto model = peaks.model_at(design);
-    const observables::Resonances found = observables::resonances(*model, model::defaults(*model));
+    const observables::Resonances found =
+        observables::resonances(*model, model::defaults(*model), observables::many_dofs);
     const auto& stuck = found.stuck.empty() ? found.free : found.stuck;
     spans.contacts = spans.contacts || !found.stuck.empty();
     // By number from the highest: what no spring holds is missing below.

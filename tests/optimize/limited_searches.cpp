@@ -46,7 +46,8 @@ TEST_CASE("random searches with limits: none is complete where another way comes
               << "), limits exceeded by " << excess << std::endl;
     CAPTURE(seed, found.design, found.amplitude, found.stop.message);
     if (found.feasible) CHECK(excess <= 1e-6);
-    if (found.status != observables::Status::complete) continue;
+    const bool at_end = found.stop.reason == optimize::reasons::end_of_window;
+    if (found.status != observables::Status::complete && !at_end) continue;
     ++complete;
     CHECK(found.feasible);
     CAPTURE(other.amplitude, other.by, other.design);
@@ -123,6 +124,7 @@ TEST_CASE("of several minima the search finds the one that few starts come to") 
   const auto search = random_limits::make(seed);
   const auto found = optimize::optimum(search.scene, search.problem, {.certificate = false});
   CAPTURE(seed, found.design, found.stop.message);
-  REQUIRE(found.status == observables::Status::complete);
+  // Their windows end on the flank of a resonance, where the least amplitude is.
+  REQUIRE(found.stop.reason == optimize::reasons::end_of_window);
   CHECK(found.amplitude <= known * (1 + 1e-6));
 }
