@@ -102,6 +102,7 @@ const Origin* Faults::to_file(std::string& pointer) const {
     const std::size_t end = std::min(pointer.find('/', slash + 1), pointer.size());
     const Origin& origin = list->second[std::stoul(pointer.substr(slash + 1, end - slash - 1))];
     pointer.replace(slash + 1, end - slash - 1, std::to_string(origin.entry));
+    if (!origin.list.empty()) pointer.replace(0, slash, origin.list);
     return &origin;
   }
   return nullptr;

@@ -19,6 +19,7 @@ struct Origin {
   std::size_t entry;
   std::string index{};
   int number = 0;
+  std::string list{};  // its pointer in the file, where it stands elsewhere there
 };
 /// The items of lists with repeated entries, by the pointer of the list.
 using Origins = std::unordered_map<std::string, std::vector<Origin>>;

@@ -287,6 +287,9 @@ Ring write_out_ring(Node& scene, const FileSource& source, Origins& origins, Fau
                 [](const Member& m) { return m.key == "cyclic"; });
   Origins all = repeat(scene, faults);
   put_behind(origins, all);
+  for (int k = 0; k < of->sectors; ++k)
+    all["/structure/matrices/stiffness_factors"].push_back(
+        {static_cast<std::size_t>(k), {}, 0, child("/structure/cyclic/mistuning", matrices_stiffness)});
   origins = std::move(all);
   return {of->sectors};
 }

@@ -253,6 +253,9 @@ TEST_CASE("what is wrong with full rings from matrices is told") {
               "found a list of 2, must be a list of 3 numbers, a factor for each sector");
   check_fault(full(R"({"matrices.stiffness": [1, 0, 1]})"), folder, at + "/mistuning/matrices.stiffness/1",
               "found 0, must be above 0");
+  check_fault(full(R"({"matrices.stiffness": [1, 1.7e308, 1]})"), folder,
+              at + "/mistuning/matrices.stiffness/1",
+              "found 1.7e+308, with which the stiffness matrix is too large for a number");
   check_fault(full(R"({"matrices.mass": [1, 1, 1]})"), folder, at + "/mistuning/matrices.mass",
               "\"matrices.stiffness\"");
   check_fault(
