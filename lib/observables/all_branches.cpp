@@ -50,7 +50,7 @@ class AllBranches {
  public:
   explicit AllBranches(const Following& following) : f_(following) {}
 
-  std::vector<ResponseBranch> run(std::vector<TracedBranch> given) {
+  std::vector<TracedBranch> run(std::vector<TracedBranch> given) {
     for (TracedBranch& each : given) {
       Known known;
       known.response = std::move(each.response);
@@ -59,16 +59,24 @@ class AllBranches {
       find_half_branches(each.events);
     }
     follow_ways();
-    for (int i = 0; i < f_.limits.searches && !stopped_; ++i)
-      search(f_.window.lower + (f_.window.upper - f_.window.lower) * (i + 0.5) / f_.limits.searches);
+    if (may_have_several()) {
+      search(f_.window.lower);
+      search(f_.window.upper);
+    }
+    for (int i = 0; i < f_.limits.searches && !stopped_; ++i) {
+      const double share = (i + 0.5) / f_.limits.searches;
+      const double omega = f_.window.lower + (f_.window.upper - f_.window.lower) * share;
+      search(omega);
+      deflate(omega);
+    }
     if (f_.limits.searches > 0 && is_full())
       known_.front().response.untraced.push_back("branches that no other reaches: " + limit_told());
     for (; next_ < ways_.size(); ++next_)
       if (const Way& way = ways_[next_]; !way.followed)
         untraced(way.from, way.kind, way.half_branch.x[way.half_branch.x.size() - 1],
                  "stopped by the caller");
-    std::vector<ResponseBranch> all;
-    for (Known& each : known_) all.push_back(std::move(each.response));
+    std::vector<TracedBranch> all;
+    for (Known& each : known_) all.push_back({std::move(each.response), each.problem, {}});
     return all;
   }
 
@@ -94,6 +102,7 @@ class AllBranches {
     double arclength = 0;
     Vector x, tangent;
     std::string message{};
+    std::optional<std::size_t> way{};  // that leaves the known branch there
   };
 
   std::string frequency(double omega) const { return frequency_text(omega, f_.unit); }
@@ -125,9 +134,9 @@ class AllBranches {
       const hbm::HbmProblem& narrow = *known_[k].problem;
       const Harmonics harmonics = without(narrow.harmonics(), doubles ? Lost::period : Lost::mirror_image);
       if (doubles && known_[k].doublings >= f_.limits.doublings) {
-        untraced(
-            k, kind, omega,
-            "the period was doubled " + std::to_string(known_[k].doublings) + " times already (doublings)");
+        untraced(k, kind, omega,
+                 "the period was doubled " + std::to_string(known_[k].doublings) +
+                     (known_[k].doublings == 1 ? " time" : " times") + " already (doublings)");
         continue;
       }
       if (harmonics.order > scene::largest_order) {
@@ -227,8 +236,10 @@ class AllBranches {
     const Vector u = x.head(n), p = hbm::parameters_at(*problem, omega);
     run.course.points.emplace_back(
         -entry->step, run.observer->observe({u, p, ways_[k].half_branch.direction, 0, with.evaluator(),
-                                             with.factors(), omega, with.scratch()}));
+                                             with.factors(), omega, with.scratch()},
+                                            HeldBy::branch_point));
     set_apart(event_kinds::branch_point, run.course.points.front().second);
+    estimate_as_at(ways_[k], run.course.points.front().second);
     continuation::Start start{entry->v.head(n), hbm::parameters_at(*problem, entry->v[n]), model::frequency,
                               1, entry->tangent};
     trace(start, entry->step, run);
@@ -240,6 +251,15 @@ class AllBranches {
     if (kind == event_kinds::symmetry_breaking || known_[from].response.symmetry == Symmetry::mirror_pair)
       response.symmetry = Symmetry::mirror_pair;
     add_known(std::move(run), omega);
+  }
+
+  // The equations are singular at a branch point. For fewer harmonics, those of the branch that is left
+  // there, they are not.
+  void estimate_as_at(const Way& way, ResponsePoint& point) const {
+    const ResponsePoint& event = known_[way.from].response.events[way.event].point;
+    point.truncation_estimate = event.truncation_estimate;
+    point.truncation_change = event.truncation_change;
+    point.truncation_flagged = event.truncation_flagged;
   }
 
   // A trace, and the branch that it becomes.
@@ -254,13 +274,13 @@ class AllBranches {
     std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
   };
 
-  static Run begin(const std::shared_ptr<const hbm::HbmProblem>& problem) {
+  Run begin(const std::shared_ptr<const hbm::HbmProblem>& problem) const {
     Run run;
     run.known.problem = problem;
     run.known.response = described(problem->model());
     run.known.response.solver.unknowns = problem->size();
     run.observer = std::make_shared<Observer>(problem);
-    run.monitors = frequency_monitors(run.observer, Steps::curve, {.stability = true, .branch_points = true});
+    run.monitors = frequency_monitors(run.observer, f_.steps, {.stability = true, .branch_points = true});
     return run;
   }
 
@@ -279,7 +299,7 @@ class AllBranches {
       return !stopped_;
     };
     const hbm::HbmProblem& problem = *run.known.problem;
-    continuation::Options options = frequency_options(f_.window, Steps::curve, f_.go_on);
+    continuation::Options options = frequency_options(f_.window, f_.steps, f_.go_on);
     options.step.initial = step;
     continuation::Tracer tracer(run.known.problem, start, options, run.monitors, record);
     continuation::Counts counts;
@@ -297,7 +317,11 @@ class AllBranches {
     run.events = std::move(traced.events);
     run.stop = std::move(traced.stop);
     stopped_ = stopped_ || run.stop.reason == StopReason::user;
-    if (run.end) run.course.end_at(run.end->arclength, beside_end * (1 + in.norm_u(run.end->x)));
+    if (!run.end) return;
+    run.course.end_at(run.end->arclength, beside_end * (1 + in.norm_u(run.end->x)));
+    ResponsePoint& last = run.course.points.back().second;
+    if (run.end->way && last.omega == run.end->x[run.end->x.size() - 1])
+      estimate_as_at(ways_[*run.end->way], last);
   }
 
   // from: where it begins.
@@ -319,36 +343,68 @@ class AllBranches {
     find_half_branches(run.events);
   }
 
+  bool may_have_several() const {
+    return known_.front().problem && may_have_several_responses(known_.front().problem->model());
+  }
+
+  // What branches of the first harmonics have at one frequency.
+  std::vector<Vector> known_at(double omega) const {
+    const auto problem = known_.front().problem;
+    std::vector<Vector> all;
+    for (const Known& each : known_)
+      if (each.problem && each.problem->harmonics() == problem->harmonics())
+        for (Vector& u : solutions_at(*problem, each.response.points, omega)) all.push_back(std::move(u));
+    return all;
+  }
+
   // Branches of the first harmonics that no other reaches, by what they have at one frequency.
   void search(double omega) {
     const auto problem = known_.front().problem;
-    if (!problem) return;
-    std::vector<Vector> failed;
-    while (!stopped_ && !is_full()) {
-      std::vector<Vector> solutions = failed;
-      for (const Known& each : known_)
-        if (each.problem && each.problem->harmonics() == problem->harmonics())
-          for (Vector& u : solutions_at(*problem, each.response.points, omega))
-            solutions.push_back(std::move(u));
-      const auto found = solution_beside(*problem, omega, solutions, f_.go_on);
-      if (!found) return;
-      failed.push_back(*found);
-      Run run = begin(problem);
-      continuation::Start start{*found, hbm::parameters_at(*problem, omega), model::frequency, 1, {}};
-      trace(start, 0, run);
-      if (run.stop.reason == StopReason::start_failed || run.course.points.empty()) continue;
-      if (run.stop.reason != StopReason::closed && !stopped_) {
-        Run back = begin(problem);
-        start.direction = -1;
-        trace(start, 0, back);
-        run.course.prepend(std::move(back.course));
-        run.events.insert(run.events.end(), back.events.begin(), back.events.end());
-        if (status_of(back.stop.reason) == Status::failed) run.stop = back.stop;
-      }
-      run.known.response.isolated = true;
-      add_known(std::move(run), omega);
-      follow_ways();
+    if (!problem || stopped_) return;
+    const Vector p = hbm::parameters_at(*problem, omega);
+    for (const Vector& found : further_responses(problem, p, known_at(omega), f_.go_on)) {
+      const std::vector<Vector> known = known_at(omega);
+      if (!stopped_ && !is_full() && index_of(*problem, found, known) == known.size())
+        add_isolated(found, omega);
     }
+  }
+
+  // The same by deflation with all harmonics.
+  void deflate(double omega) {
+    const auto problem = known_.front().problem;
+    if (!problem) return;
+    const Vector p = hbm::parameters_at(*problem, omega);
+    std::vector<Vector> tried;
+    while (!stopped_ && !is_full()) {
+      std::vector<Vector> known = known_at(omega);
+      known.insert(known.end(), tried.begin(), tried.end());
+      const auto found = solution_beside(*problem, p, known, f_.go_on);
+      if (!found) return;
+      tried.push_back(*found);
+      add_isolated(*found, omega);
+    }
+  }
+
+  // The branch through a response, and those that leave it.
+  void add_isolated(const Vector& u, double omega) {
+    const auto problem = known_.front().problem;
+    Run run = begin(problem);
+    continuation::Start start{u, hbm::parameters_at(*problem, omega), model::frequency, 1, {}};
+    if (omega == f_.window.upper) start.direction = -1;
+    trace(start, 0, run);
+    if (run.stop.reason == StopReason::start_failed || run.course.points.empty()) return;
+    const bool is_inside = omega > f_.window.lower && omega < f_.window.upper;
+    if (is_inside && run.stop.reason != StopReason::closed && !stopped_) {
+      Run back = begin(problem);
+      start.direction = -1;
+      trace(start, 0, back);
+      run.course.prepend(std::move(back.course));
+      run.events.insert(run.events.end(), back.events.begin(), back.events.end());
+      if (status_of(back.stop.reason) == Status::failed) run.stop = back.stop;
+    }
+    run.known.response.isolated = true;
+    add_known(std::move(run), omega);
+    follow_ways();
   }
 
   // Whether the branch point that a trace has met is its end.
@@ -358,10 +414,12 @@ class AllBranches {
     if (!crossing || !event.located || event.nonsmooth) return {};
     const Vector x = with_frequency(event.point.u, event.point.parameter);
     End end{event.point.arclength, x, crossing->tangents.front()};
-    for (Way& other : ways_) {
+    for (std::size_t i = 0; i < ways_.size(); ++i) {
+      Way& other = ways_[i];
       if (!meets(other, problem, x, in)) continue;
       if (!other.wider && in.dot(other.half_branch.direction, -end.tangent) < same_direction) continue;
       other.followed = true;
+      end.way = i;
       end.message = "reached the " + std::string(told(other.kind)) + " at " +
                     frequency(event.point.parameter) + " of a branch that is known";
       return end;
@@ -418,7 +476,7 @@ class AllBranches {
 
 }  // namespace
 
-std::vector<ResponseBranch> all_branches(std::vector<TracedBranch> given, const Following& following) {
+std::vector<TracedBranch> all_branches(std::vector<TracedBranch> given, const Following& following) {
   return AllBranches(following).run(std::move(given));
 }
 

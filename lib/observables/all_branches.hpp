@@ -26,7 +26,7 @@ struct BranchLimits {
   friend bool operator==(const BranchLimits&, const BranchLimits&) = default;
 };
 
-/// A branch with its equations, and all events of its trace.
+/// A branch with its equations. events: all of its trace, of a branch that others may leave.
 struct TracedBranch {
   ResponseBranch response;
   std::shared_ptr<const hbm::HbmProblem> problem;
@@ -38,12 +38,13 @@ struct Following {
   FrequencyWindow window;  // rad/s
   scene::FrequencyUnit unit;
   BranchLimits limits;
+  Steps steps = Steps::curve;
   GoOn go_on;
   std::function<bool(double omega)> at;  // at each point, for the progress; false stops
 };
 
 /// The given branches, which need stability and branch points among their events, and all others. Branches
 /// that were not followed are told by ResponseBranch::untraced of the one they leave.
-std::vector<ResponseBranch> all_branches(std::vector<TracedBranch> given, const Following& following);
+std::vector<TracedBranch> all_branches(std::vector<TracedBranch> given, const Following& following);
 
 }  // namespace arcslip::observables

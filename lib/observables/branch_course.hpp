@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,11 +18,14 @@ struct Course {
   std::vector<std::pair<double, ResponsePoint>> points;
   std::vector<std::pair<double, ResponseEvent>> events;
 
-  /// Ends at the branch point there, which becomes the last point. The frequency turns there, beside the
-  /// branch point by the rounding of its singular equations: folds closer than `beside` are none.
+  /// Ends at the branch point there, which becomes the last point. The frequency turns there, and the
+  /// amplitude may, beside the branch point by the rounding of its singular equations: folds and peaks closer
+  /// than `beside` are none.
   void end_at(double arclength, double beside) {
     std::erase_if(events, [&](const auto& event) {
-      return event.second.kind == event_kinds::fold && std::abs(event.first - arclength) < beside;
+      const std::string& kind = event.second.kind;
+      return (kind == event_kinds::fold || kind == event_kinds::peak) &&
+             std::abs(event.first - arclength) < beside;
     });
     std::erase_if(points, [&](const auto& point) { return point.first >= arclength; });
     std::erase_if(events, [&](const auto& event) { return event.first > arclength; });

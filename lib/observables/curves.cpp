@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 namespace arcslip::observables {
 namespace {
@@ -35,7 +36,7 @@ constexpr std::size_t most_responses = 24;
 class Curves {
  public:
   Curves(std::vector<std::string> kinds, const scene::Scene& scene, const CurveRange& range,
-         const ProgressCallback& report, double least = 0)
+         const ProgressCallback& report, double least = 0, std::optional<BranchLimits> all = {})
       : kinds_(std::move(kinds)),
         peaks_(kinds_.front() == event_kinds::peak),
         unit_(scene.frequency_unit),
@@ -45,7 +46,8 @@ class Curves {
         parts_(kinds_.front(), unit_, way_),
         report_(report),
         stability_(range.stability),
-        least_(least) {}
+        least_(least),
+        all_(std::move(all)) {}
 
   std::vector<ResponseBranch> run() {
     look_at(0);
@@ -69,7 +71,7 @@ class Curves {
     }
     if (branches.empty()) {
       const std::string why =
-          failure_.empty() ? unbounded_.empty() ? where_resonances_lie() : unbounded_ : failure_;
+          failure_.empty() ? unbounded_.empty() ? what_was_looked_at() : unbounded_ : failure_;
       branches.push_back(parts_.failed(
           way_.from, "no " + what() + " was found at " + way_.name + " = " + to_digits(way_.from, 8) +
                          ", nor up to " + to_digits(way_.to, 8) + ", between " +
@@ -78,6 +80,7 @@ class Curves {
     } else if (!failure_.empty()) {
       branches.push_back(parts_.failed(failed_at_, failure_));
     }
+    branches.front().untraced = untraced_;
     return branches;
   }
 
@@ -85,14 +88,22 @@ class Curves {
   struct Found {
     std::string kind;
     SpecialCurve curve;
-    int unknowns;
+    std::shared_ptr<const hbm::HbmProblem> problem;
     double seconds;
     std::string doubt, unknown_stability;
   };
 
   std::string what() const { return kinds_.size() > 1 ? "bifurcation" : words_of(kinds_.front()); }
 
-  std::string where_resonances_lie() const {
+  std::string what_was_looked_at() const {
+    if (is_bifurcation(kinds_.front())) {
+      const std::string values = " " + std::to_string(looked_at_.size()) + " values of " + way_.name;
+      if (all_)
+        return "all branches were looked at, for" + values + ", up to " + std::to_string(most_seen_) +
+               " of them";
+      return "the branch that begins at " + frequency_text(window_.lower, unit_) + " was looked at, for" +
+             values + ", and none that leaves it (\"branches\": \"all\")";
+    }
     if (is_zero_of_function(kinds_.front())) return "";
     Vector p = model::defaults(*way_.model);
     p[way_.index] = way_.from;
@@ -114,8 +125,10 @@ class Curves {
   void look_at(double share) {
     looked_at_.push_back(share);
     const double over = way_.value(share);
-    const SpecialPoints response = special_points(way_, over, window_, kinds_, [this] { return go_on(); });
+    const SpecialPoints response = seen_at(over);
     if (stopped_) return;
+    most_seen_ = std::max(most_seen_, response.branches);
+    tell_untraced(response.untraced, over);
     double highest = 0;
     for (const SpecialPoint& start : response.points) highest = std::max(highest, start.amplitude);
     for (const SpecialPoint& start : response.points) {
@@ -135,11 +148,31 @@ class Curves {
                " could not be continued through the window, and curves may be missing: " + response.failure;
   }
 
+  SpecialPoints seen_at(double over) {
+    if (!all_) return special_points(way_, over, window_, kinds_, [this] { return go_on(); });
+    return special_points_of_all(way_, over, window_, kinds_, *all_, unit_, [this](const Progress& now) {
+      progress_.points = now.points;
+      progress_.frequency = now.frequency;
+      progress_.step = now.step;
+      return go_on();
+    });
+  }
+
+  // One of each reason.
+  void tell_untraced(const std::vector<std::string>& all, double over) {
+    const auto why = [](const std::string& text) { return text.substr(text.rfind(": ") + 1); };
+    for (const std::string& each : all)
+      if (std::none_of(untraced_.begin(), untraced_.end(),
+                       [&](const std::string& other) { return why(other) == why(each); }))
+        untraced_.push_back("at " + way_.name + " = " + to_digits(over, 8) + ", " + each);
+  }
+
   void follow(const SpecialPoint& start, double share) {
     const auto began = std::chrono::steady_clock::now();
     const std::unique_ptr<CurveTracer> tracer = make_tracer(start);
     const auto passes = [&](const Found& found) {
-      return found.kind == start.kind && tracer->passes(found.curve, start);
+      return found.kind == start.kind && is_alike(found, *start.problem) &&
+             tracer->passes(found.curve, start);
     };
     if (std::any_of(found_.begin(), found_.end(), passes)) return;
     const int ahead = way_.direction();
@@ -149,7 +182,7 @@ class Curves {
       if (!goes_the_same_way(curve, back)) curve = joined(std::move(back), std::move(curve));
     }
     if (curve.end.closed) curve = begun_at_a_turn(std::move(curve));
-    drop_parts_of(*tracer, start.kind, curve);
+    drop_parts_of(*tracer, start, curve);
     stopped_ = stopped_ || is_stopped(curve.end) || (curve.begin && is_stopped(*curve.begin));
     look_beyond(curve.end);
     if (curve.begin) look_beyond(*curve.begin);
@@ -157,8 +190,13 @@ class Curves {
     Vector p = hbm::parameters_at(*start.problem, start.x[start.problem->size()]);
     p[way_.index] = start.over;
     std::string doubt = doubt_of_rounding(*way_.model, p, curve.counts);
-    found_.push_back({start.kind, std::move(curve), start.problem->size() + 1, seconds.count(),
-                      std::move(doubt), section_->unknown_stability()});
+    found_.push_back({start.kind, std::move(curve), start.problem, seconds.count(), std::move(doubt),
+                      section_->unknown_stability()});
+  }
+
+  // Of motions with the same symmetry and period.
+  static bool is_alike(const Found& found, const hbm::HbmProblem& problem) {
+    return found.problem->harmonics() == problem.harmonics();
   }
 
   static bool is_stopped(const SpecialCurveEnd& end) {
@@ -202,9 +240,9 @@ class Curves {
   }
 
   // A failed curve is covered by one traced through all of it from the other side.
-  void drop_parts_of(const CurveTracer& tracer, const std::string& kind, const SpecialCurve& curve) {
+  void drop_parts_of(const CurveTracer& tracer, const SpecialPoint& start, const SpecialCurve& curve) {
     std::erase_if(found_, [&](const Found& earlier) {
-      if (earlier.kind != kind) return false;
+      if (earlier.kind != start.kind || !is_alike(earlier, *start.problem)) return false;
       const auto& points = earlier.curve.points;
       const auto passes = [&](const SpecialCurve::At& at) {
         return tracer.passes(curve, tracer.point_of(at));
@@ -237,9 +275,11 @@ class Curves {
   }
 
   std::vector<ResponseBranch> reported(const Found& found) const {
-    auto parts = CurveParts(found.kind, unit_, way_).of(found.curve);
+    OverParameter way = way_;
+    way.model = found.problem->shared_model();
+    auto parts = CurveParts(found.kind, unit_, way).of(found.curve);
     SolverSummary& solver = parts.front().solver;
-    solver.unknowns = found.unknowns;
+    solver.unknowns = found.problem->size() + 1;
     solver.seconds = found.seconds;
     add(found.curve.counts, solver);
     for (ResponseBranch& part : parts) {
@@ -299,7 +339,10 @@ class Curves {
   std::vector<double> looked_at_, to_look_at_;  // shares of the range
   std::vector<Found> found_;
   StabilityRequest stability_;
-  const double least_;    // share of the highest point of a response, of those that start a curve
+  const double least_;  // share of the highest point of a response, of those that start a curve
+  const std::optional<BranchLimits> all_;  // of all branches, where these are looked at
+  int most_seen_ = 0;                      // branches at one value
+  std::vector<std::string> untraced_;
   bool stopped_ = false;  // by the user
   double failed_at_ = 0;
   std::string failure_, unbounded_;
@@ -331,7 +374,8 @@ std::vector<ResponseBranch> bifurcation_curves(const scene::Scene& scene, const 
   if (range.of == BifurcationsOf::neimark_sacker) kinds = {event_kinds::neimark_sacker};
   if (range.of == BifurcationsOf::symmetry_breaking) kinds = {event_kinds::symmetry_breaking};
   return Curves(std::move(kinds), scene,
-                {range.over, range.from, range.to, range.frequency_from, range.frequency_to, true}, progress)
+                {range.over, range.from, range.to, range.frequency_from, range.frequency_to, true}, progress,
+                0, range.branches == Branches::all ? std::optional(range.limits) : std::nullopt)
       .run();
 }
 

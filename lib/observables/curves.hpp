@@ -38,11 +38,14 @@ struct CurveRange {
 /// Kinds of bifurcations; `all`: each that the motion may have.
 enum class BifurcationsOf { all, period_doubling, neimark_sacker, symmetry_breaking };
 
-/// A parameter `over`, its range, and a frequency window in the scene's unit.
+/// A parameter `over`, its range, and a frequency window in the scene's unit. branches: on which of the
+/// responses bifurcations are looked for; limits: of all branches.
 struct BifurcationRange {
   BifurcationsOf of = BifurcationsOf::all;
   std::string over;
   double from = 0, to = 0, frequency_from = 0, frequency_to = 0;
+  Branches branches = Branches::one;
+  BranchLimits limits{};
   friend bool operator==(const BifurcationRange&, const BifurcationRange&) = default;
 };
 
@@ -84,12 +87,14 @@ std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const CurveRa
                                         const ProgressCallback& progress = {});
 
 /// The curves of bifurcations of the frequency response over range.over (bifurcation_curve.hpp), found in the
-/// same way, with the stability of their points: `unstable` counts the multipliers other than those of the
-/// bifurcation. A branch is `of` one kind; its first and its last event have that kind. Other events: "fold",
-/// where the curve turns in the parameter, so that two bifurcations of the frequency response meet; "turn",
-/// where it turns in the frequency; resonances "resonance_1_1" to "resonance_1_4" of Neimark-Sacker points,
-/// and "resonance_1_2" of others, where a second multiplier is -1. A curve of Neimark-Sacker points ends at
-/// resonances 1:1 and 1:2 ("resonance"), and any where multipliers jump across the bifurcation ("jump").
+/// same way, or of all branches at each of these values: motions that are antisymmetric double no period, but
+/// those that leave them at a break of symmetry may. With the stability of their points: `unstable` counts
+/// the multipliers other than those of the bifurcation. A branch is `of` one kind; its first and its last
+/// event have that kind. Other events: "fold", where the curve turns in the parameter, so that two
+/// bifurcations of the frequency response meet; "turn", where it turns in the frequency; resonances
+/// "resonance_1_1" to "resonance_1_4" of Neimark-Sacker points, and "resonance_1_2" of others, where a second
+/// multiplier is -1. A curve of Neimark-Sacker points ends at resonances 1:1 and 1:2 ("resonance"), and any
+/// where multipliers jump across the bifurcation ("jump").
 std::vector<ResponseBranch> bifurcation_curves(const scene::Scene& scene, const BifurcationRange& range,
                                                const ProgressCallback& progress = {});
 

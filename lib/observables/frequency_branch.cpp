@@ -3,6 +3,7 @@
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/model/stiffness_apart.hpp>
 #include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/observables/passages.hpp>
 #include <arcslip/observables/phase_resonance.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/study_branches.hpp>
@@ -95,7 +96,7 @@ void tell_end(const continuation::BranchStop& stop, double from, double upper, s
     for (const auto& point : result.points) highest = std::max(highest, point.omega);
     for (const auto& event : result.events) highest = std::max(highest, event.point.omega);
     result.stop.message = "turned back at " + with_unit(highest) + " and left the window at its lower end, " +
-                          with_unit(stop.value) + ": no response above that frequency was traced";
+                          with_unit(stop.value) + nothing_above;
   }
 }
 
@@ -111,6 +112,16 @@ std::shared_ptr<const hbm::HbmProblem> problem_at(const std::shared_ptr<const mo
   } catch (const scene::Interrupted&) {
     return {};
   }
+}
+
+bool may_have_several_responses(const model::Model& model) {
+  const Vector p = model::defaults(model);
+  return std::any_of(model.elements.begin(), model.elements.end(), [&](const auto& element) {
+    const std::vector<double> fields = element.fields(p);
+    for (int i = 0; i < element.law->directions(); ++i)
+      if (element.law->traits(fields, i).several_responses) return true;
+    return false;
+  });
 }
 
 std::shared_ptr<const model::Model> model_of(const scene::Scene& scene, scene::StopRequest stop) {
@@ -201,10 +212,7 @@ std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Obse
     for (auto& monitor : stability_monitors(observer)) monitors.push_back(std::move(monitor));
   }
   if (watched.branch_points) monitors.push_back(continuation::branch_point_monitor());
-  if (watched.passage > 0)
-    monitors.push_back({event_kinds::passage, [at = watched.passage](const continuation::Accepted& now) {
-                          return now.parameter - at;
-                        }});
+  if (watched.passage > 0) monitors.push_back(passage_monitor(watched.passage));
   return monitors;
 }
 

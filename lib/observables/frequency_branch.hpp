@@ -36,6 +36,9 @@ struct FirstResponse {
 /// computation is then aborted, and its result is invalid.
 using GoOn = std::function<bool()>;
 
+/// Whether a law of the model may have several responses at one frequency.
+bool may_have_several_responses(const model::Model& model);
+
 /// Of a scene whose matrices are small or reduced (prepare.hpp). stop: Model::stop.
 std::shared_ptr<const model::Model> model_of(const scene::Scene& scene, scene::StopRequest stop);
 
@@ -64,6 +67,9 @@ std::string doubt_of_rounding(const model::Model& model, const continuation::Vec
 /// ratio, and friction without a stiffness. It does not mention the Jacobian, which is not checked for
 /// scenes.
 void speak_of_scene(const model::Model& model, const continuation::Vector& p, continuation::Branch& branch);
+
+/// The end of the message of a branch that left the window where it began.
+inline constexpr const char* nothing_above = ": no response above that frequency was traced";
 
 /// The status and stop of a branch over the frequency from omega = `from` on, in the unit of the scene, once
 /// its points and events are there. upper: of the window, rad/s.

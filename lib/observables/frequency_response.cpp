@@ -6,6 +6,7 @@
 #include <arcslip/observables/refined_parts.hpp>
 #include <arcslip/observables/resonances.hpp>
 #include <arcslip/observables/shooting_response.hpp>
+#include <arcslip/observables/solutions_beside.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
 
@@ -35,34 +36,33 @@ double seconds_since(std::chrono::steady_clock::time_point began) {
 class Sweep {
  public:
   Sweep(const scene::Scene& scene, const FrequencyRange& range, const ProgressCallback& progress)
-      : unit_(scene::to_rad_per_s(scene.frequency_unit)),
-        frequency_unit_(scene.frequency_unit),
+      : Sweep(model_of(scene, [this] { return !go_on(); }), scene.frequency_unit, range, Steps::curve,
+              progress) {}
+
+  Sweep(std::shared_ptr<const model::Model> model, scene::FrequencyUnit unit, const FrequencyRange& range,
+        Steps steps, const ProgressCallback& progress)
+      : unit_(scene::to_rad_per_s(unit)),
+        frequency_unit_(unit),
         lower_(range.from * unit_),
         upper_(range.to * unit_),
         all_(range.branches == Branches::all),
         watched_{.stability = stability_of(range), .branch_points = all_},
         limits_(range.limits),
+        steps_(steps),
         progress_(progress),
-        model_(model_of(scene, [this] { return !go_on(); })) {}
+        model_(std::move(model)) {}
 
   std::vector<ResponseBranch> run() {
-    std::vector<TracedBranch> pieces;
-    double from = lower_;
-    for (int piece = 0; piece <= 2 * model_->dofs; ++piece) {
-      pieces.push_back(trace_from(from));
-      ResponseBranch& last = pieces.back().response;
-      if (piece > 0) last.parent = 1;
-      if (last.stop.reason != reasons::unbounded || !(far_side_ < upper_)) break;
-      from = far_side_;
-    }
     std::vector<ResponseBranch> branches;
     if (all_)
-      branches = all_branches(std::move(pieces), following());
+      for (TracedBranch& branch : run_all()) branches.push_back(std::move(branch.response));
     else
-      for (TracedBranch& piece : pieces) branches.push_back(std::move(piece.response));
+      branches = with_others_at_ends(trace_pieces());
     tell_missing_peak(*model_, {lower_, upper_}, frequency_unit_, branches);
     return branches;
   }
+
+  std::vector<TracedBranch> run_all() { return all_branches(trace_pieces(), following()); }
 
   std::optional<RefinedResponse> refined(std::span<const ResponseBranch> coarse, double accuracy) {
     if (all_ || coarse.size() != 1) return {};
@@ -79,10 +79,25 @@ class Sweep {
   }
 
  private:
+  // The branch from the lower end on, and where an unbounded resonance divides it, those beyond.
+  std::vector<TracedBranch> trace_pieces() {
+    std::vector<TracedBranch> pieces;
+    double from = lower_;
+    for (int piece = 0; piece <= 2 * model_->dofs; ++piece) {
+      pieces.push_back(trace_from(from));
+      ResponseBranch& last = pieces.back().response;
+      if (piece > 0) last.parent = 1;
+      if (last.stop.reason != reasons::unbounded || !(far_side_ < upper_)) break;
+      from = far_side_;
+    }
+    return pieces;
+  }
+
   Following following() {
     return {.window = {lower_, upper_},
             .unit = frequency_unit_,
             .limits = limits_,
+            .steps = steps_,
             .go_on = [this] { return go_on(); },
             .at =
                 [this](double omega) {
@@ -103,14 +118,84 @@ class Sweep {
       return {std::move(result), nullptr, {}};
     }
     auto traced = frequency_branch(
-        model_, {lower_, upper_}, from, recording(course), 1, Steps::curve, [this] { return go_on(); },
-        watched_);
+        model_, {lower_, upper_}, from, recording(course), 1, steps_, [this] { return go_on(); }, watched_);
     result.unknown_stability = traced.unknown_stability;
     result.solver.unknowns = traced.problem->size();
     finish(traced, from, course);
     estimate_bifurcations(result);
     result.solver.seconds = seconds_since(began);
     return {std::move(result), traced.problem, std::move(traced.branch.events)};
+  }
+
+  // A window may begin or end within a hysteresis: with the branches of responses that its ends have besides.
+  std::vector<ResponseBranch> with_others_at_ends(std::vector<TracedBranch> pieces) {
+    std::vector<ResponseBranch> branches;
+    const auto problem = pieces.back().problem;
+    for (TracedBranch& piece : pieces) branches.push_back(std::move(piece.response));
+    if (!problem || branches.back().status == Status::failed || !may_have_several_responses(*model_))
+      return branches;
+    const auto on = [this] { return go_on(); };
+    for (const double end : {lower_, upper_})
+      for (const Vector& u : further_responses(problem, hbm::parameters_at(*problem, end),
+                                               responses_at_end(branches, end), on)) {
+        const std::vector<Vector> known = responses_at_end(branches, end);
+        if (index_of(*problem, u, known) == known.size() && go_on())
+          branches.push_back(trace_inwards(problem, u, end));
+      }
+    complete(branches);
+    return branches;
+  }
+
+  // Of the branches: they begin and end there.
+  static std::vector<Vector> responses_at_end(const std::vector<ResponseBranch>& branches, double omega) {
+    std::vector<Vector> all;
+    for (const ResponseBranch& branch : branches) {
+      if (branch.points.empty()) continue;
+      for (const ResponsePoint* point : {&branch.points.front(), &branch.points.back()})
+        if (point->omega == omega)
+          all.push_back(Eigen::Map<const Vector>(point->unknowns.data(),
+                                                 static_cast<Eigen::Index>(point->unknowns.size())));
+    }
+    return all;
+  }
+
+  // From an end of the window.
+  ResponseBranch trace_inwards(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u,
+                               double end) {
+    const auto began = std::chrono::steady_clock::now();
+    Course course{described(*model_), {}, end, {}};
+    const bool is_up = end == lower_;
+    const auto traced = frequency_branch_part(
+        problem, {lower_, upper_}, end, is_up ? upper_ : lower_, u, recording(course), is_up ? 1 : -1,
+        Steps::curve, [this] { return go_on(); }, watched_);
+    ResponseBranch& result = course.result;
+    result.unknown_stability = traced.unknown_stability;
+    result.solver.unknowns = problem->size();
+    finish(traced, end, course);
+    if (!is_up && traced.branch.stop.reason == StopReason::boundary && traced.branch.stop.value == lower_) {
+      result.status = Status::complete;
+      result.stop.message = "reached the end of the window at " + with_unit(lower_);
+    }
+    result.stop.message = "from another response at " + with_unit(end) + ": " + result.stop.message;
+    estimate_bifurcations(result);
+    result.solver.seconds = seconds_since(began);
+    return std::move(result);
+  }
+
+  // A branch that turned back and left the window is complete where another one has its upper end.
+  void complete(std::vector<ResponseBranch>& branches) const {
+    const auto has_upper_end = [&](const ResponseBranch& branch) {
+      return !branch.points.empty() &&
+             (branch.points.front().omega == upper_ || branch.points.back().omega == upper_);
+    };
+    if (std::none_of(branches.begin(), branches.end(), has_upper_end)) return;
+    for (ResponseBranch& branch : branches)
+      if (branch.status == Status::stopped && branch.stop.reason == reasons::boundary) {
+        branch.status = Status::complete;
+        std::string& message = branch.stop.message;
+        message.erase(message.rfind(nothing_above));
+        message += "; another branch reaches the upper end";
+      }
   }
 
   // What is recorded along a branch.
@@ -218,6 +303,7 @@ class Sweep {
   bool all_;
   Watched watched_;
   BranchLimits limits_;
+  Steps steps_;
   const ProgressCallback& progress_;
   std::shared_ptr<const model::Model> model_;
   double far_side_ = 0;
@@ -231,6 +317,12 @@ std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const 
                                                const ProgressCallback& progress) {
   if (range.method == ResponseMethod::shooting) return {shooting_response(scene, range, progress)};
   return Sweep(scene, range, progress).run();
+}
+
+std::vector<TracedBranch> traced_branches(std::shared_ptr<const model::Model> model,
+                                          scene::FrequencyUnit unit, const FrequencyRange& range, Steps steps,
+                                          const ProgressCallback& progress) {
+  return Sweep(std::move(model), unit, range, steps, progress).run_all();
 }
 
 std::optional<RefinedResponse> refined_response(const scene::Scene& scene, const FrequencyRange& range,

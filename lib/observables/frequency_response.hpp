@@ -8,6 +8,7 @@
 #include <arcslip/results/progress.hpp>
 #include <arcslip/scene/scene.hpp>
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -39,6 +40,11 @@ struct FrequencyRange {
 /// is reported with its reason. Throws std::invalid_argument unless from < to. Threads may share the scene.
 std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const FrequencyRange& range,
                                                const ProgressCallback& progress = {});
+
+/// All branches of a model, with their equations: those of Branches::all, without a message where no peak is.
+std::vector<TracedBranch> traced_branches(std::shared_ptr<const model::Model> model,
+                                          scene::FrequencyUnit unit, const FrequencyRange& range, Steps steps,
+                                          const ProgressCallback& progress);
 
 /// A response of which parts have more harmonics than others (ResponsePoint::order).
 struct RefinedResponse {

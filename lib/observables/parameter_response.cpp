@@ -6,6 +6,7 @@
 #include <arcslip/observables/refined_parts.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/observables/shooting_response.hpp>
+#include <arcslip/observables/solutions_beside.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/results/text.hpp>
 
@@ -47,9 +48,8 @@ class Traces {
     if (stopped_) return {stopped()};
     if (!starts.unbounded.empty()) return {failed("no response is bounded", starts.unbounded)};
     if (starts.u.empty()) return {failed("no periodic response was found", starts.failure)};
-    std::vector<Vector> ends;
+    std::vector<Vector> ends, far_ends;  // of branches, at `from` and at `to`
     std::vector<ResponseBranch> branches;
-    bool reached = false;
     for (const Vector& start : starts.u) {
       if (std::any_of(ends.begin(), ends.end(),
                       [&](const Vector& end) { return (start - end).norm() <= same_solution * end.norm(); }))
@@ -57,15 +57,39 @@ class Traces {
       const auto traced = trace(starts.problem, start, branches.emplace_back());
       ends.push_back(start);
       if (traced.stop.reason == StopReason::boundary) {
-        if (traced.stop.value == way_.from) ends.push_back(traced.points.back().u);
-        reached = reached || traced.stop.value == way_.to;
+        (traced.stop.value == way_.from ? ends : far_ends).push_back(traced.points.back().u);
       }
-      if (traced.stop.reason == StopReason::user) break;
+      if (traced.stop.reason == StopReason::user) return branches;
     }
+    if (starts.several) add_from_far_end(starts.problem, far_ends, branches);
     // A branch that turned back is complete if others cover the range beyond.
     for (ResponseBranch& branch : branches)
-      if (reached && branch.stop.reason == reasons::boundary) branch.status = Status::complete;
+      if (!far_ends.empty() && branch.stop.reason == reasons::boundary) branch.status = Status::complete;
     return branches;
+  }
+
+  // The branches of responses at the end of the range that no other reaches. ends: those that are reached.
+  void add_from_far_end(const std::shared_ptr<const hbm::HbmProblem>& problem, std::vector<Vector>& ends,
+                        std::vector<ResponseBranch>& branches) {
+    Vector p = hbm::parameters_at(*problem, omega_);
+    p[way_.index] = way_.to;
+    for (const Vector& u : further_responses(problem, p, ends, [this] { return go_on(); })) {
+      if (stopped_) return;
+      if (index_of(*problem, u, ends) < ends.size()) continue;
+      ends.push_back(u);
+      ResponseBranch& result = branches.emplace_back();
+      auto branch = trace_from(problem, u, way_.to, -way_.direction(), way_.options(), result);
+      speak_of_scene(*way_.model, p, branch);
+      const auto& stop = branch.stop;
+      result.status = stop.reason == StopReason::boundary ? Status::complete : status_of(stop.reason);
+      const std::string end = stop.reason == StopReason::boundary
+                                  ? "reached " + way_.name + " = " + to_digits(stop.value, 8)
+                                  : stop.message;
+      result.stop = {reason_of(stop.reason), stop.value, stop.limit,
+                     "from another response at " + way_.name + " = " + to_digits(way_.to, 8) + ": " + end};
+      if (stop.reason == StopReason::boundary && stop.value == way_.to)
+        ends.push_back(branch.points.back().u);
+    }
   }
 
   std::optional<RefinedResponse> refined(std::span<const ResponseBranch> coarse, double accuracy) {

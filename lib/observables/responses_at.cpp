@@ -1,9 +1,8 @@
 #include <arcslip/observables/responses_at.hpp>
 
-#include <arcslip/continuation/tracing/corrector.hpp>
 #include <arcslip/hbm/problem.hpp>
-#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/high_modes.hpp>
+#include <arcslip/observables/passages.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/refined_parts.hpp>
 #include <arcslip/observables/solutions_beside.hpp>
@@ -25,18 +24,7 @@ constexpr double lowest_ratio =
     10;  // the same down to below natural frequencies, from which resonances may bend up
 constexpr double below_natural = 0.5;
 constexpr int most_deflations = 16;
-constexpr int most_corrections = 20;
-constexpr double at_frequency = 1e-14, not_moved = 1e-3, next_to = 1e-2;  // relative
-
-bool may_have_several(const model::Model& model) {
-  const Vector p = model::defaults(model);
-  return std::any_of(model.elements.begin(), model.elements.end(), [&](const auto& element) {
-    const std::vector<double> fields = element.fields(p);
-    for (int i = 0; i < element.law->directions(); ++i)
-      if (element.law->traits(fields, i).several_responses) return true;
-    return false;
-  });
-}
+constexpr double next_to = 1e-2;  // relative
 
 FrequencyWindow search_window(const model::Model& model, double omega) {
   FrequencyWindow window{omega / search_ratio, omega * search_ratio};
@@ -58,13 +46,13 @@ class Search {
         window_(search_window(*model_, omega)),
         go_on_(go_on),
         found_(found),
-        p_(hbm::parameters_at(*found.problem, omega)) {}
+        p_(hbm::parameters_at(*found.problem, omega)),
+        all_(*found.problem, p_, model::frequency) {}
 
   void run(const std::vector<Vector>& guesses) {
     found_.several = true;
-    const Vector first = found_.u.front();
-    found_.u.clear();
     found_.window = window_;
+    const Vector first = found_.u.front();
     const auto swept =
         frequency_branch(model_, window_, window_.lower, {}, 1, Steps::passage, go_on_, watched_);
     take(swept);
@@ -73,87 +61,40 @@ class Search {
       doubt(stop.message);
     // Newton's method may have ended next to a response that it does not come to.
     const auto corrected = hbm::response_near(*found_.problem, p_, first);
-    const bool is_next = std::any_of(found_.u.begin(), found_.u.end(), [&](const Vector& other) {
+    const bool is_next = std::any_of(all_.u.begin(), all_.u.end(), [&](const Vector& other) {
       return (first - other).norm() <= next_to * other.norm();
     });
     const bool is_off = corrected && (first - *corrected).norm() > same_solution * corrected->norm();
     const Vector start = is_off ? *corrected : first;
-    if (corrected ? !is_among(start) : !is_next) {
-      found_.u.push_back(start);
+    if (corrected ? !all_.has(start) : !is_next) {
+      all_.u.push_back(start);
       follow(start);
     }
     if (corrected || !is_next) put_first(start);
     for (const Vector& guess : guesses)
-      if (const auto u = hbm::response_near(*found_.problem, p_, guess); u && !stopped() && add(*u))
+      if (const auto u = hbm::response_near(*found_.problem, p_, guess); u && !stopped() && all_.add(*u))
         follow(*u);
+    for (const Vector& other : further_responses(found_.problem, p_, all_.u, go_on_))
+      if (!stopped() && all_.add(other)) follow(other);
     for (int k = 0; k < most_deflations && !stopped(); ++k) {
-      const auto other = solution_beside(*found_.problem, omega_, found_.u, go_on_);
-      if (!other || !add(*other)) break;
+      const auto other = solution_beside(*found_.problem, p_, all_.u, go_on_);
+      if (!other || !all_.add(*other)) break;
       follow(*other);
     }
+    found_.u = std::move(all_.u);
+    if (found_.doubt.empty()) found_.doubt = all_.doubt;
   }
 
  private:
   bool stopped() const { return go_on_ && !go_on_(); }
 
-  bool is_among(const Vector& u) const {
-    return std::any_of(found_.u.begin(), found_.u.end(), [&](const Vector& other) {
-      return (u - other).norm() <= same_solution * other.norm();
-    });
-  }
-
   // The response that is found from rest comes first, as where no others are looked for.
   void put_first(const Vector& u) {
     const auto nearest =
-        std::min_element(found_.u.begin(), found_.u.end(),
+        std::min_element(all_.u.begin(), all_.u.end(),
                          [&](const Vector& a, const Vector& b) { return (a - u).norm() < (b - u).norm(); });
     *nearest = u;
-    std::rotate(found_.u.begin(), nearest, nearest + 1);
-  }
-
-  // Whether it is a further one.
-  bool add(const Vector& u) {
-    if (is_among(u)) return false;
-    found_.u.push_back(u);
-    return true;
-  }
-
-  // Corrected at omega, where that leads no farther.
-  void add_near(const Vector& guess, bool is_located) {
-    const auto u = hbm::response_near(*found_.problem, p_, guess);
-    if (u && (!is_located || (*u - guess).norm() <= not_moved * guess.norm()))
-      add(*u);
-    else if (is_located)
-      add(guess);
-    else
-      found_.doubt = "another response, where the branch passes the frequency, could not be corrected";
-  }
-
-  // Where the branch passes omega between a fold and a point beside it: corrected in planes normal to the
-  // tangent at the fold, since at omega the equations are nearly singular. From the fold the frequency
-  // changes as the square of the way. share: of the frequencies between the two.
-  void add_between(const continuation::Point& fold, const continuation::Point& beside, double share) {
-    const Eigen::Index n = fold.u.size();
-    Vector at_fold(n + 1), normal(n + 1);
-    at_fold << fold.u, fold.parameter;
-    normal << fold.tangent.head(n).normalized(), 0;
-    continuation::NewtonOptions newton;
-    continuation::Counts counts;
-    continuation::Corrector corrector(*found_.problem, p_, model::frequency, newton, counts);
-    double way = std::sqrt(share) * normal.head(n).dot(beside.u - fold.u);
-    Vector v;
-    for (int k = 0; k < most_corrections; ++k) {
-      v = at_fold + way * normal;
-      if (!corrector.correct(v, normal, false).converged) break;
-      const double ratio = (omega_ - fold.parameter) / (v[n] - fold.parameter);
-      if (!(ratio > 0)) break;
-      if (std::abs(v[n] - omega_) <= at_frequency * omega_) {
-        add(v.head(n));
-        return;
-      }
-      way *= std::sqrt(ratio);
-    }
-    add_near(fold.u + std::sqrt(share) * (beside.u - fold.u), false);
+    std::rotate(all_.u.begin(), nearest, nearest + 1);
   }
 
   // The branch through a response, both ways.
@@ -167,18 +108,9 @@ class Search {
     }
   }
 
-  // Next to a fold a branch may pass twice within a step.
   void take(const FrequencyBranch& traced) {
     const continuation::Branch& branch = traced.branch;
-    for (const continuation::Event& event : branch.events) {
-      if (event.monitor == event_kinds::passage) add_near(event.point.u, event.located);
-      if (event.monitor != event_kinds::fold || event.after + 1 >= branch.points.size()) continue;
-      for (const std::size_t i : {event.after, event.after + 1}) {
-        const continuation::Point &fold = event.point, &beside = branch.points[i];
-        const double share = (fold.parameter - omega_) / (fold.parameter - beside.parameter);
-        if (share > 0 && share < 1) add_between(fold, beside, share);
-      }
-    }
+    all_.take(branch);
     const bool ends = branch.stop.reason == StopReason::boundary || branch.stop.reason == StopReason::closed;
     if (!ends) doubt(branch.stop.message);
   }
@@ -194,6 +126,7 @@ class Search {
   const GoOn& go_on_;
   ResponsesAt& found_;
   const Vector p_;
+  Passages all_;
   const Watched watched_{.passage = omega_};
 };
 
@@ -336,7 +269,7 @@ ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, doubl
   found.failure = first.failure;
   if (stopped() || !first.u) return found;
   found.u.push_back(*first.u);
-  if (may_have_several(*model)) Search(model, omega, go_on, found).run(guesses);
+  if (may_have_several_responses(*model)) Search(model, omega, go_on, found).run(guesses);
   return found;
 }
 

@@ -21,9 +21,9 @@ namespace arcslip::observables {
 
 /// Responses at omega and the model's own parameters, each once. If a law may have several responses: those
 /// at which the frequency branch to 4 omega passes omega, also next to a fold, from omega/4 on or from below
-/// the lowest natural frequency above omega/10; others that deflation finds (solutions_beside.hpp); and where
-/// the branches through each of them, in the same window, pass omega. One that none of these reaches is
-/// missing. Without a response: the reason.
+/// the lowest natural frequency above omega/10; others by further_responses() and deflation
+/// (solutions_beside.hpp); and where the branches through each of them, in the same window, pass omega. One
+/// that none of these reaches is missing. Without a response: the reason.
 struct ResponsesAt {
   std::shared_ptr<const hbm::HbmProblem> problem;
   std::vector<continuation::Vector> u;

@@ -12,6 +12,7 @@
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/over_parameter.hpp>
+#include <arcslip/observables/special_points.hpp>
 
 #include <functional>
 #include <memory>
@@ -20,30 +21,6 @@
 #include <vector>
 
 namespace arcslip::observables {
-
-// Special points of one branch over the excitation frequency, peaks or folds: the starts of their curves.
-
-struct SpecialPoint {
-  std::shared_ptr<const hbm::HbmProblem> problem;  // in the scale of the branch it was found on
-  double over = 0;                                 // the parameter
-  continuation::Vector x;                          // unknowns and frequency
-  bool nonsmooth = false;
-  std::string kind{};  // of event_kinds
-  double amplitude = 0;
-};
-
-struct SpecialPoints {
-  std::vector<SpecialPoint> points;
-  std::string unbounded;            // why a resonance is unbounded, and so has no peak
-  std::string failure;              // why the branch does not cover the window: points may be missing
-  std::string unknown_stability{};  // why multipliers are not known
-};
-
-/// The special points in a frequency window at the value `over` of the parameter. kinds: of events,
-/// event_kinds::peak, fold, or of_curves, for which multipliers are computed. If go_on returns false, the
-/// points found so far.
-SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
-                             const std::vector<std::string>& kinds, const GoOn& go_on = {});
 
 /// The kind of special points, as zeros of the slope of a quantity along the branch over the frequency.
 struct SpecialKind {

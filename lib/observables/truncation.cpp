@@ -68,6 +68,7 @@ bool stiffen(const model::Model& model, const Vector& p) {
 HeldBy held_by(const continuation::Event& event) {
   if (event.nonsmooth) return HeldBy::corner;
   if (event.monitor == event_kinds::fold) return HeldBy::fold;
+  if (event.monitor == event_kinds::branch_point) return HeldBy::branch_point;
   const bool bifurcation = std::any_of(event_kinds::of_stability.begin(), event_kinds::of_stability.end(),
                                        [&](const char* kind) { return event.monitor == kind; });
   return bifurcation ? HeldBy::parameter : HeldBy::extremum;
@@ -99,6 +100,7 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   exact_ = residual_.cwiseAbs().maxCoeff() <= linear_motion * force;
   if (exact_ && held == HeldBy::parameter) return {};
   if (exact_) return {.location = 0, .location_change = 0};
+  if (held == HeldBy::branch_point) return {.amplitude = no_value, .change = no_value};
 
   bool flagged = samples_too_few();
   Shift location;

@@ -11,6 +11,7 @@
 //   an extremum        none: dA/ds = 0
 //   a fold             it moves along the branch to where dq/ds is zero again, c = -d_q' / q''
 //   a corner           h = 0 (hbm/corner.hpp) holds for d + c t
+//   a branch point     not known: the linearization is singular there
 //
 // The place of an event in q moves by d_q + c t_q; that of an extremum, which is where dA/ds is zero again,
 // by the same with c = -(dA)'/A''.
@@ -51,7 +52,7 @@ struct TruncationEstimate {
 };
 
 /// The condition that defines a point of a branch.
-enum class HeldBy { parameter, extremum, fold, corner };
+enum class HeldBy { parameter, extremum, fold, corner, branch_point };
 HeldBy held_by(const continuation::Event& event);
 
 class Truncation {

@@ -2,6 +2,7 @@
 // continue.
 #include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/studies/branch_keys.hpp>
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/stability_keys.hpp>
@@ -27,6 +28,9 @@ scene::file::KeysOf<BifurcationRange> keys_of_bifurcations() {
   keys.add(scene::file::word("of", &BifurcationRange::of, bifurcations_of, "the kind of bifurcation"));
   keys.add(scene::file::range_over(&BifurcationRange::over, &BifurcationRange::from, &BifurcationRange::to));
   keys.add(scene::file::window(&BifurcationRange::frequency_from, &BifurcationRange::frequency_to));
+  add_branch_keys(keys,
+                  "bifurcations of the branch that begins at the lower end of the window, or also of those "
+                  "that leave it, and so on, as of a frequency response");
   return keys;
 }
 

@@ -264,6 +264,10 @@ Random cases, the same on every machine but for the moments of signals. The test
       "beside "
       "the cubic equation of one harmonic",
       responses_at::beside_folds, 1, "beside a fold as many responses", "5000: as many at each");
+  row("windows that begin or end within the hysteresis of a Duffing oscillator: how many responses their ends "
+      "have, beside the cubic equation of one harmonic",
+      responses_at::within_hystereses, 1, "a frequency response has all responses at the ends",
+      "1000: as many at each");
   row("random structures of 1 to 6 masses with friction, some with cubic springs, in all units, names, "
       "orders and directions",
       structures::number, 1, "structures:",

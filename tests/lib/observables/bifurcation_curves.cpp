@@ -435,7 +435,46 @@ TEST_CASE("curves whose multipliers are not known, or which are not there, say s
   REQUIRE(none.size() == 1);
   CHECK(none[0].stop.message ==
         "no Neimark-Sacker point was found at f.cosine = 0.01, nor up to 0.02, between 0.9 rad/s and 1.1 "
-        "rad/s");
+        "rad/s: the branch that begins at 0.9 rad/s was looked at, for 9 values of f.cosine, and none that "
+        "leaves it (\"branches\": \"all\")");
+}
+
+TEST_CASE("motions that leave antisymmetric ones at a break of symmetry double their period") {
+  const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
+    "elements": [{"name": "nl", "type": "cubic_spring", "at": "x", "stiffness": 1}],
+    "excitation": [{"name": "force", "at": "x", "cosine": 20}], "response": {"at": "x"},
+    "harmonics": {"order": 21}})");
+  observables::BifurcationRange range{BifurcationsOf::period_doubling, "force.cosine", 25, 25.05, 1.2, 1.7,
+                                      observables::Branches::all};
+  range.limits.doublings = 1;
+  const auto found = curves(s, range);
+  // By shooting at 25 N, with a multiplier of -1.00000000: of the period of the force, and of two.
+  const double once[] = {1.23527688, 1.65078397}, twice[] = {1.24508308, 1.37525475};
+  for (const auto& [period, expected] : {std::pair{1, once}, std::pair{2, twice}})
+    for (const double w : {expected[0], expected[1]})
+      CHECK(std::count_if(found.begin(), found.end(), [&](const ResponseBranch& curve) {
+              return curve.period == period && std::abs(curve.points.front().omega - w) < 1e-6;
+            }) == 1);
+  CHECK(found.size() == 4);
+  for (const ResponseBranch& curve : found) {
+    CHECK(curve.status == observables::Status::complete);
+    check_multipliers(curve, 1e-6);
+  }
+  REQUIRE(found.front().untraced.size() == 1);
+  CHECK(found.front().untraced[0].starts_with(
+      "at force.cosine = 25, the branch that leaves at the period doubling at 1.2450"));
+  CHECK(found.front().untraced[0].ends_with(": the period was doubled 1 time already (doublings)"));
+
+  range.branches = observables::Branches::one;
+  const auto none = curves(s, range);
+  REQUIRE(none.size() == 1);
+  CHECK(none[0].stop.message.ends_with("and none that leaves it (\"branches\": \"all\")"));
+  const auto no_pair = curves(double_well(9), {BifurcationsOf::neimark_sacker, "f.cosine", 0.01, 0.02, 0.9,
+                                               1.1, observables::Branches::all});
+  REQUIRE(no_pair.size() == 1);
+  CHECK(no_pair[0].stop.message.find(": all branches were looked at, for ") != std::string::npos);
 }
 
 TEST_CASE("curves of bifurcations leave the window of frequencies, and stop for the user") {

@@ -6,6 +6,7 @@
 #include "lib/observables/responses_at.hpp"
 
 #include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/studies/catalogue.hpp>
@@ -355,4 +356,62 @@ TEST_CASE("responses that few harmonics do not have are found with more, and non
     }));
   }
   CHECK(found[0]["accuracy"]["orders"].size() > 1);
+}
+
+namespace {
+
+/// How many branches begin or end at a frequency.
+int ends(const std::vector<observables::ResponseBranch>& branches, double w) {
+  int count = 0;
+  for (const auto& branch : branches)
+    for (const auto* point : {&branch.points.front(), &branch.points.back()})
+      if (point->omega == w) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("a frequency response has all responses at the ends of its window, also within a hysteresis") {
+  const std::uint64_t count = responses_at::within_hystereses.count();
+  std::uint64_t tried = 0;
+  for (std::uint64_t seed = 0; tried < count; ++seed) {
+    test_random::Random random(seed);
+    const Duffing of{random.logarithmic(0.01, 0.2), random.logarithmic(1e-3, 10),
+                     random.logarithmic(0.05, 1)};
+    const auto all = folds(of, 0.3, 6.0);
+    if (all.size() != 2) continue;
+    const double width = all[1] - all[0], inside = all[0] + width * random.between(0.05, 0.95);
+    const bool begins = random.one_in(2);
+    scene::Scene s = scene_of(of);
+    // More harmonics move the folds by less than a twentieth of a wide hysteresis, and add none within it.
+    if (begins && width > 0.1 && random.one_in(3)) s.harmonics.order = 9;
+    const observables::FrequencyRange range{.from = begins ? inside : 0.3, .to = begins ? 7.0 : inside};
+    const auto branches = observables::frequency_response(s, range);
+    CAPTURE(seed, of.c, of.b, of.force, all[0], all[1], inside, begins, s.harmonics.order);
+    for (const auto& branch : branches) CHECK(branch.status == Status::complete);
+    for (const double w : {range.from, range.to}) CHECK(ends(branches, w) == of.responses(w));
+    ++tried;
+  }
+}
+
+TEST_CASE("a trace over the force has all responses at both ends of its range") {
+  int tried = 0;
+  for (std::uint64_t seed = 0; tried < 10; ++seed) {
+    test_random::Random random(seed);
+    const Duffing of{random.logarithmic(0.01, 0.2), random.logarithmic(1e-3, 10),
+                     random.logarithmic(0.05, 1)};
+    const auto all = folds(of, 0.3, 6.0);
+    if (all.size() != 2) continue;
+    const double inside = random.between(all[0], all[1]);
+    const observables::ParameterRange range{
+        .over = "f.cosine", .from = 1e-3 * of.force, .to = of.force, .frequency = inside};
+    const auto branches = observables::parameter_response(scene_of(of), range);
+    CAPTURE(seed, of.c, of.b, of.force, inside);
+    REQUIRE(branches.size() == 2);  // that from rest, and the fold within the range that is apart from it
+    for (const auto& branch : branches) CHECK(branch.status == Status::complete);
+    CHECK(branches[1].points.front().over == of.force);
+    CHECK(branches[1].points.back().over == of.force);
+    CHECK(branches[1].stop.message.starts_with("from another response at f.cosine = "));
+    ++tried;
+  }
 }
