@@ -330,6 +330,7 @@ class AllBranches {
     run.course.move_to(response);
     finish(run, from, response);
     estimate_bifurcations(response);
+    estimate_flat_peaks(response);
     response.unknown_stability = run.observer->unknown_stability();
     const auto& points = response.points;
     if (!points.empty()) {

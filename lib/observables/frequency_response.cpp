@@ -123,6 +123,7 @@ class Sweep {
     result.solver.unknowns = traced.problem->size();
     finish(traced, from, course);
     estimate_bifurcations(result);
+    estimate_flat_peaks(result);
     result.solver.seconds = seconds_since(began);
     return {std::move(result), traced.problem, std::move(traced.branch.events)};
   }
@@ -142,6 +143,10 @@ class Sweep {
         if (index_of(*problem, u, known) == known.size() && go_on())
           branches.push_back(trace_inwards(problem, u, end));
       }
+    if (stopped_ && branches.back().stop.reason != reasons::user) {
+      branches.back().status = Status::stopped;
+      branches.back().stop = {reasons::user, 1, 1, stopped_in_search};
+    }
     complete(branches);
     return branches;
   }
@@ -178,6 +183,7 @@ class Sweep {
     }
     result.stop.message = "from another response at " + with_unit(end) + ": " + result.stop.message;
     estimate_bifurcations(result);
+    estimate_flat_peaks(result);
     result.solver.seconds = seconds_since(began);
     return std::move(result);
   }
@@ -248,6 +254,7 @@ class Sweep {
     const auto& stop = traced.branch.stop;
     if (stop.reason != StopReason::boundary || stop.value != to) return {};
     estimate_bifurcations(course.result);
+    estimate_flat_peaks(course.result);
     course.result.unknown_stability = traced.unknown_stability;
     course.result.solver.unknowns = problem->size();
     add(traced.branch.counts, course.result.solver);

@@ -62,6 +62,11 @@ class Traces {
       if (traced.stop.reason == StopReason::user) return branches;
     }
     if (starts.several) add_from_far_end(starts.problem, far_ends, branches);
+    if (stopped_ && branches.back().stop.reason != reasons::user) {
+      branches.back().status = Status::stopped;
+      branches.back().stop = {reasons::user, way_.from, way_.to, stopped_in_search};
+      return branches;
+    }
     // A branch that turned back is complete if others cover the range beyond.
     for (ResponseBranch& branch : branches)
       if (!far_ends.empty() && branch.stop.reason == reasons::boundary) branch.status = Status::complete;

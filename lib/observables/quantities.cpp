@@ -209,7 +209,8 @@ constexpr ResponseQuantity of_response[] = {
     {"phase", "rad", "phase lag of the response's fundamental behind the excitation", bounded<&Point::phase>},
     {"truncation_estimate", "m",
      "estimated effect of the neglected harmonics on the amplitude at this frequency (or parameter value); "
-     "at an event, on the amplitude of the event, which may move",
+     "at an event, on the amplitude of the event, which may move; null at a branch point of the same "
+     "harmonics, where it is not known",
      bounded<&Point::truncation_estimate>},
     {"truncation_flagged", "", "the estimate may be too low",
      [](const Point& point) { return point.truncation_flagged; }},

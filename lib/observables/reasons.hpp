@@ -21,7 +21,8 @@ using results::reasons::user;
 inline constexpr Reason boundary{
     "boundary",
     "the branch left the frequency window or the parameter range: at the far end, as usual, or, having "
-    "turned back, at the end where it started; a peak or a fold may also leave the window"};
+    "turned back, at the end where it started, which is complete where another branch reaches the far end; a "
+    "peak or a fold may also leave the window"};
 inline constexpr Reason closed{"closed", "the curve closed on itself"};
 inline constexpr Reason event{
     "event", "a curve could not be continued where it reaches or leaves a corner of the response"};

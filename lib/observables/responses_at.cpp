@@ -38,9 +38,10 @@ FrequencyWindow search_window(const model::Model& model, double omega) {
 }
 
 // The responses at omega on branches through a wide window.
-class Search {
+class ResponseSearch {
  public:
-  Search(std::shared_ptr<const model::Model> model, double omega, const GoOn& go_on, ResponsesAt& found)
+  ResponseSearch(std::shared_ptr<const model::Model> model, double omega, const GoOn& go_on,
+                 ResponsesAt& found)
       : model_(std::move(model)),
         omega_(omega),
         window_(search_window(*model_, omega)),
@@ -269,7 +270,7 @@ ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, doubl
   found.failure = first.failure;
   if (stopped() || !first.u) return found;
   found.u.push_back(*first.u);
-  if (may_have_several_responses(*model)) Search(model, omega, go_on, found).run(guesses);
+  if (may_have_several_responses(*model)) ResponseSearch(model, omega, go_on, found).run(guesses);
   return found;
 }
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double constant = 1e-11;             // relative changes of the amplitude below
 constexpr std::ptrdiff_t points_per_side = 2;  // that are looked at, on each side
+constexpr int points_of_flat_peak = 3;         // on both sides: a point may lie next to any peak by chance
 
 }  // namespace
 
@@ -80,6 +81,27 @@ void add_to(To& to, const Counts& counts) {
 }
 
 }  // namespace
+
+void estimate_flat_peaks(ResponseBranch& branch) {
+  const auto& points = branch.points;
+  for (ResponseEvent& event : branch.events) {
+    if (event.kind != event_kinds::peak || event.point.unbounded) continue;
+    const ResponsePoint& peak = event.point;
+    double largest = peak.truncation_estimate;
+    int level = 0;
+    const auto is_level = [&](const ResponsePoint& beside) {
+      const double known_to = 2 * (peak.truncation_estimate + beside.truncation_estimate);
+      const double above = beside.amplitude - peak.amplitude;
+      if (!(std::abs(above) < known_to)) return false;
+      largest = std::max(largest, beside.truncation_estimate + std::max(above, 0.0));
+      ++level;
+      return true;
+    };
+    for (std::size_t i = event.after + 1; i-- > 0 && is_level(points[i]);) continue;
+    for (std::size_t i = event.after + 1; i < points.size() && is_level(points[i]); ++i) continue;
+    if (level >= points_of_flat_peak) event.point.truncation_estimate = largest;
+  }
+}
 
 void add(const continuation::Counts& counts, SolverSummary& to) {
   add_to(to, counts);

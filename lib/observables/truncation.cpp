@@ -24,7 +24,8 @@ constexpr double within_corner = 1e-6;   // |h| over its size
 constexpr double kept_change = 0.02;     // change of the harmonics kept with samples, over those left out
 constexpr double converging = 0.3;       // second sweep over the first
 constexpr double cancelled = 0.02;       // |dA| over the change of the response
-constexpr double small_change = 0.1;     // of the response, over its amplitude
+constexpr double uncancelled_of_internal = 0.2;  // of laws with unknowns of their own
+constexpr double small_change = 0.1;             // of the response, over its amplitude
 constexpr double tolerance = 1e-6;  // of the response, over its amplitude: below, what cancels is 5e-8 of it
 
 elements::Harmonics widened(const elements::Harmonics& h) {
@@ -125,10 +126,13 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   if (!std::isfinite(change)) return {.flagged = true};
   const bool cancels = std::abs(change) < cancelled * size && size > tolerance * extreme.amplitude;
   double estimate = cancels ? uncancelled * size : std::abs(change);
+  const bool has_internal = problem_.blocks() > problem_.coordinates().unknowns;
+  if (has_internal && size > tolerance * extreme.amplitude)
+    estimate = std::max(estimate, uncancelled_of_internal * size);
   const elements::Harmonics& all = wide_.problem().harmonics();
   const double base = all.base_frequency(now.p[model::frequency]);
   const double highest = highest_natural_frequency_above(all.order * base, now);
-  if (problem_.harmonics().order * base < highest)
+  if (has_internal || problem_.harmonics().order * base < highest)
     estimate += further_change(now, extreme, held, is_at_corner);
   const double beyond = all.order * base < highest ? response_beyond(now) : 0;
   const bool small = size + beyond <= small_change * extreme.amplitude && std::isfinite(estimate);

@@ -19,9 +19,10 @@
 // Derivatives with respect to s are differences along t. The estimate is |dA|, not a bound; where dA all but
 // vanishes, as where it changes sign, |dx|/20 with the change dx of the response, since the harmonics beyond
 // add a few percent of that. Where a natural frequency with all elements at maximum stiffness is above N
-// omega, a second correction with the same factors, d_2, adds |dA_2|; and where one is above (2 N + 9) omega,
-// the estimate is at least what its mode answers at resonance, with forces that fall as n^-2
-// (high_modes.hpp).
+// omega, a second correction with the same factors, d_2, adds |dA_2|, as it does where laws have unknowns of
+// their own, whose equations the sweeps solve less well: there |dx|/5 counts in place of |dx|/20. Where one
+// is above (2 N + 9) omega, the estimate is at least what its mode answers at resonance, with forces that
+// fall as n^-2 (high_modes.hpp).
 //
 // It is flagged if it may be far too low: that resonance has no bound, or may add a tenth of the amplitude;
 // the sweeps do not converge; the change of the response is not small; samples do not resolve a force of the

@@ -111,8 +111,12 @@ TEST_CASE("with one harmonic the folds of examples/duffing_jenkins are those of 
   const Json turn = only(events("folds"), "turn");
   CHECK(std::abs(turn["omega"].get<double>() - 1.911489205) < 1e-8);
   CHECK(std::abs(turn["damper.normal_load"].get<double>() - 1.215318824) < 1e-7);
-  const Json fold = only(events("trace"), "fold");
-  CHECK(std::abs(fold["damper.normal_load"].get<double>() - 0.9169049045) < 1e-9);
+  const Json traced = events("trace");
+  for (const double load : {0.9169049045, 1.6884695203})
+    CHECK(std::count_if(traced.begin(), traced.end(), [&](const Json& event) {
+            return event["kind"] == "fold" &&
+                   std::abs(event["damper.normal_load"].get<double>() - load) < 1e-9;
+          }) == 1);
 }
 
 TEST_CASE("the resolved scene that peaks leaves gives the same curve again, with the same hash") {

@@ -77,11 +77,17 @@ TEST_CASE("the Jenkins and Duffing oscillator folds in the load where its descri
   // Below the first fold and above the second there are two responses of large amplitude beside the small
   // one.
   const auto s = scenes::duffing_jenkins();
-  for (const auto& [range, fold] : {std::pair(parameter_range("d.normal_load", 2, 0.5, 3), 0.9169049045),
-                                    std::pair(parameter_range("d.normal_load", 2, 3, 0.5), 1.6884695203)}) {
+  const double first = 0.9169049045, second = 1.6884695203;
+  for (const auto& [range, fold, other] :
+       {std::tuple(parameter_range("d.normal_load", 2, 0.5, 3), first, second),
+        std::tuple(parameter_range("d.normal_load", 2, 3, 0.5), second, first)}) {
     const auto branches = observables::parameter_response(s, range);
     CAPTURE(fold);
-    REQUIRE(branches.size() == 2);
+    REQUIRE(branches.size() == 3);
+    const auto beyond = events(branches[2], "fold");  // of those at the end of the range
+    REQUIRE(beyond.size() == 1);
+    CHECK(std::abs(beyond[0].point.over - other) < 1e-9);
+    CHECK(branches[2].points.back().over == range.to);
     for (const auto& branch : branches) CHECK(branch.status == observables::Status::complete);
     CHECK(events(branches[0], "fold").empty());
     CHECK(branches[0].points.back().over == range.to);

@@ -104,7 +104,7 @@ TEST_CASE("the peaks of several places are those of each that no other exceeds")
     CHECK(found[i].located);
     CHECK(std::abs(found[i].point.omega / wanted[i].point.omega - 1) < 1e-9);
     CHECK(std::abs(found[i].point.amplitude / wanted[i].point.amplitude - 1) < 1e-12);
-    CHECK(std::abs(found[i].point.truncation_estimate / wanted[i].point.truncation_estimate - 1) < 1e-6);
+    CHECK(std::abs(found[i].point.truncation_change / wanted[i].point.truncation_change - 1) < 1e-6);
     CHECK(std::abs(found[i].point.maxima.velocity / wanted[i].point.maxima.velocity - 1) < 1e-10);
   }
 }
