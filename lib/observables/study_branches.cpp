@@ -12,6 +12,7 @@ namespace {
 
 constexpr double constant = 1e-11;             // relative changes of the amplitude below
 constexpr std::ptrdiff_t points_per_side = 2;  // that are looked at, on each side
+constexpr double largest_estimate = 0.1;       // of the amplitude: beyond, the first order is not all
 constexpr int points_of_flat_peak = 3;         // on both sides: a point may lie next to any peak by chance
 
 }  // namespace
@@ -92,7 +93,9 @@ void estimate_flat_peaks(ResponseBranch& branch) {
     const auto is_level = [&](const ResponsePoint& beside) {
       const double known_to = 2 * (peak.truncation_estimate + beside.truncation_estimate);
       const double above = beside.amplitude - peak.amplitude;
-      if (!(std::abs(above) < known_to)) return false;
+      const bool is_known =
+          !beside.truncation_flagged && beside.truncation_estimate < largest_estimate * peak.amplitude;
+      if (!is_known || !(std::abs(above) < known_to)) return false;
       largest = std::max(largest, beside.truncation_estimate + std::max(above, 0.0));
       ++level;
       return true;

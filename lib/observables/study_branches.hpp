@@ -32,10 +32,10 @@ bool departs(const std::vector<std::pair<double, double>>& course, double arclen
 void drop_extrema_of_rounding(const std::vector<std::pair<double, double>>& course,
                               const std::vector<double>& at, ResponseBranch& result);
 
-/// Flat peaks: of three neighbouring points or more, which differ by less than twice the truncation estimates
-/// of both, the peak may be anywhere among these. They get the largest estimate there, and what a point there
-/// is higher. A truncated response has its peaks where the harmonics left out would lower it least, so that
-/// their own estimate alone is too low.
+/// Flat peaks: of three neighbouring points or more, not flagged, which differ by less than twice the
+/// truncation estimates of both, the peak may be anywhere among these. They get the largest estimate there,
+/// and what a point there is higher. A truncated response has its peaks where the harmonics left out would
+/// lower it least, so that their own estimate alone is too low.
 void estimate_flat_peaks(ResponseBranch& branch);
 
 void add(const continuation::Counts& counts, SolverSummary& to);

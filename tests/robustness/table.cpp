@@ -273,9 +273,8 @@ Random cases, the same on every machine but for the moments of signals. The test
   row("oscillators and two masses on a Bouc-Wen element, orders 3 to 11: truncation estimates at points and "
       "peaks, beside the error that four times the order tells",
       truncation::bouc_wen, 1, "truncation estimates of Bouc-Wen elements",
-      "100, with 2000 estimates that are not flagged: none below half of the error; of 1301 before, 14 of "
-      "points "
-      "and 15 of peaks");
+      "100, with 2200 estimates that are not flagged: one below half of the error; of 1301 before, 14 of "
+      "points and 15 of peaks");
   row("random structures of 1 to 6 masses with friction, some with cubic springs, in all units, names, "
       "orders and directions",
       structures::number, 1, "structures:",

@@ -439,7 +439,7 @@ TEST_CASE("curves whose multipliers are not known, or which are not there, say s
         "leaves it (\"branches\": \"all\")");
 }
 
-TEST_CASE("motions that leave antisymmetric ones at a break of symmetry double their period") {
+TEST_CASE("motions that leave antisymmetric ones at a break of symmetry double their period", "[numbers]") {
   const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
       "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},

@@ -5,8 +5,8 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/responses_at.hpp"
 
-#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/studies/catalogue.hpp>
