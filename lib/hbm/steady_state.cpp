@@ -82,6 +82,18 @@ model::Model with_springs(model::Model model, Vector& p) {
   return model;
 }
 
+// The response with these springs: of a structure that rests on its contacts, under a constant force alone.
+Vector response_on_springs(const HbmProblem& problem, const Vector& p) {
+  Vector with = p.head(p.size() - 1);
+  const model::Model model = with_springs(problem.model(), with);
+  DynamicStiffness linear(model, problem.coordinates(), problem.harmonics());
+  Vector u = Vector::Zero(problem.size());
+  if (!linear.move_to(with)) return Vector::Constant(u.size(), std::nan(""));
+  linear.force(u);
+  linear.solve(u);
+  return u;
+}
+
 // Continuation in a factor of the element forces, the last parameter, from a linear structure at 0 to the
 // scene at 1.
 class Gradual final : public continuation::Problem {
@@ -232,7 +244,7 @@ std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& prob
   const Vector rest = Vector::Zero(problem->size());
   if (stopped()) return {};
   if (const auto found = response_near(*problem, p, rest)) return found;
-  for (const auto guess : {linear_response, stuck_response}) {
+  for (const auto guess : {linear_response, stuck_response, response_on_springs}) {
     if (stopped()) return {};
     if (const auto found = response_near(*problem, p, guess(*problem, p))) return found;
   }

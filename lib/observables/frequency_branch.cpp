@@ -10,8 +10,10 @@
 #include <arcslip/scene/interruptible.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,6 +30,13 @@ constexpr double step_between_events = 1.0 / 200;  // relative to the highest fr
 constexpr double largest_frequency_step = 0.05;  // of the frequency, so that wide windows keep their low end
 constexpr double rejected_in_rounding = 0.5;     // steps, over points: where the branch lies in its rounding
 constexpr int quick_dofs = 200;                  // up to here a problem is made in a tenth of a second
+
+// Beside a drifting degree of freedom: of contacts that open, if there are any.
+std::string no_contact_closes(const model::Model& model) {
+  const bool opens = std::any_of(model.elements.begin(), model.elements.end(),
+                                 [](const auto& element) { return element.law->has_normal_load(); });
+  return opens ? ", nor does a contact that the constant forces close" : "";
+}
 
 // What may have made a computation fail, as the end of its message.
 std::string causes(const model::Model& model, const Vector& p) {
@@ -161,7 +170,7 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
     return {
         problem,
         {},
-        "no spring holds the mean position of " + model::told(*model, *dof) +
+        "no spring holds the mean position of " + model::told(*model, *dof) + no_contact_closes(*model) +
             ", and friction leaves it free to drift; add a spring between it and the ground or a supported "
             "degree of freedom, or excite odd harmonics only, with an odd \"period\" of the harmonics, or "
             "let a "
@@ -239,9 +248,28 @@ FrequencyBranch traced(const std::shared_ptr<const hbm::HbmProblem>& problem, co
 
 }  // namespace
 
+namespace {
+
+// The response without the elements over the scale of a problem, if it is larger: where contacts stick, or
+// the ground hardly moves, the first response is small beside all that follows. The middle one of three,
+// since one of them may be at a resonance.
+double size_without_elements(const hbm::HbmProblem& problem, const FrequencyWindow& window) {
+  std::array<double, 3> sizes{};
+  const std::array at{window.lower, std::midpoint(window.lower, window.upper), window.upper};
+  for (std::size_t i = 0; i < at.size(); ++i)
+    sizes[i] = hbm::linear_response(problem, hbm::parameters_at(problem, at[i])).norm();
+  std::sort(sizes.begin(), sizes.end(),
+            [](double a, double b) { return a < b || (!std::isnan(a) && std::isnan(b)); });
+  const double size = sizes[1] / problem.displacement();
+  return std::isfinite(size) ? std::max(size, 1.0) : 1.0;
+}
+
+}  // namespace
+
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record,
-                                 int direction, Steps steps, const GoOn& go_on, const Watched& watched) {
+                                 int direction, Steps steps, const GoOn& go_on, const Watched& watched,
+                                 double displacement) {
   const double width = window.upper - window.lower;
   const FirstResponse first = first_response(model, from, width, go_on);
   if (!first.u) {
@@ -253,8 +281,12 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
     none.branch.stop = {continuation::StopReason::start_failed, from, 0, first.failure};
     return none;
   }
-  return traced(first.problem, *first.u, from, frequency_options(window, steps, go_on), record, direction,
-                steps, watched);
+  const auto problem = displacement > 0
+                           ? std::make_shared<const hbm::HbmProblem>(*first.problem, displacement)
+                           : first.problem;
+  continuation::Options options = frequency_options(window, steps, go_on);
+  options.largest_state *= size_without_elements(*problem, window);
+  return traced(problem, *first.u, from, options, record, direction, steps, watched);
 }
 
 FrequencyBranch frequency_branch_part(const std::shared_ptr<const hbm::HbmProblem>& problem,

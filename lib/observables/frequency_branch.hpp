@@ -101,11 +101,11 @@ std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Obse
                                                       const Watched& watched);
 
 /// Traces from omega = `from` in the window, upwards (direction 1) or downwards (-1). If go_on returns false
-/// the branch ends with reason user.
+/// the branch ends with reason user. displacement: the scale, m; 0: that of the first response.
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record = {},
                                  int direction = 1, Steps steps = Steps::curve, const GoOn& go_on = {},
-                                 const Watched& watched = {});
+                                 const Watched& watched = {}, double displacement = 0);
 
 /// A part of such a branch, with the steps of the whole window: from a response u of `problem` at
 /// omega = `from`, or one close by, to where the branch reaches omega = `to` or an end of the window.

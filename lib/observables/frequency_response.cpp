@@ -54,15 +54,21 @@ class Sweep {
 
   std::vector<ResponseBranch> run() {
     std::vector<ResponseBranch> branches;
-    if (all_)
+    if (all_) {
       for (TracedBranch& branch : run_all()) branches.push_back(std::move(branch.response));
-    else
+    } else {
       branches = with_others_at_ends(trace_pieces());
+      for (ResponseBranch& branch : branches) drop_peaks_of_rounding(branch);
+    }
     tell_missing_peak(*model_, {lower_, upper_}, frequency_unit_, branches);
     return branches;
   }
 
-  std::vector<TracedBranch> run_all() { return all_branches(trace_pieces(), following()); }
+  std::vector<TracedBranch> run_all() {
+    std::vector<TracedBranch> all = all_branches(trace_pieces(), following());
+    for (TracedBranch& branch : all) drop_peaks_of_rounding(branch.response);
+    return all;
+  }
 
   std::optional<RefinedResponse> refined(std::span<const ResponseBranch> coarse, double accuracy) {
     if (all_ || coarse.size() != 1) return {};
@@ -74,6 +80,7 @@ class Sweep {
     });
     if (!all) return {};
     RefinedResponse found{{std::move(all->branch)}, all->change};
+    drop_peaks_of_rounding(found.branches.front());
     tell_missing_peak(*model_, {lower_, upper_}, frequency_unit_, found.branches);
     return found;
   }
@@ -82,15 +89,25 @@ class Sweep {
   // The branch from the lower end on, and where an unbounded resonance divides it, those beyond.
   std::vector<TracedBranch> trace_pieces() {
     std::vector<TracedBranch> pieces;
-    double from = lower_;
+    far_side_ = {{lower_}};
     for (int piece = 0; piece <= 2 * model_->dofs; ++piece) {
-      pieces.push_back(trace_from(from));
+      pieces.push_back(trace_from_first_of(far_side_));
       ResponseBranch& last = pieces.back().response;
       if (piece > 0) last.parent = 1;
-      if (last.stop.reason != reasons::unbounded || !(far_side_ < upper_)) break;
-      from = far_side_;
+      if (last.stop.reason != reasons::unbounded || !(far_side_.starts.front() < upper_)) break;
     }
     return pieces;
+  }
+
+  // From the first of these starts at which a response is found.
+  TracedBranch trace_from_first_of(const BeyondPole& place) {
+    const BeyondPole there = place;
+    for (std::size_t i = 0; i + 1 < there.starts.size() && there.starts[i + 1] < upper_; ++i) {
+      TracedBranch found = trace_from(there.starts[i], there.displacement);
+      if (found.response.stop.reason != reasons::start_failed) return found;
+    }
+    return trace_from(there.starts.back() < upper_ ? there.starts.back() : there.starts.front(),
+                      there.displacement);
   }
 
   Following following() {
@@ -108,17 +125,20 @@ class Sweep {
                 }};
   }
 
-  TracedBranch trace_from(double from) {
+  // displacement: the scale, m; 0: that of the first response.
+  TracedBranch trace_from(double from, double displacement) {
     const auto began = std::chrono::steady_clock::now();
-    Course course{described(*model_), {}, from, {}};
+    Course course = course_from(from);
     ResponseBranch& result = course.result;
     told_ = {.frequency = from / unit_};
     if (const auto on_it = unbounded_resonance(model_, from); on_it.unbounded) {
-      end_unbounded(result, on_it, {{from, HUGE_VAL}});
+      end_unbounded(result, on_it, from);
+      far_side_ = beyond_pole_at_start(from, upper_ - lower_);
       return {std::move(result), nullptr, {}};
     }
     auto traced = frequency_branch(
-        model_, {lower_, upper_}, from, recording(course), 1, steps_, [this] { return go_on(); }, watched_);
+        model_, {lower_, upper_}, from, recording(course), 1, steps_, [this] { return go_on(); }, watched_,
+        displacement);
     result.unknown_stability = traced.unknown_stability;
     result.solver.unknowns = traced.problem->size();
     finish(traced, from, course);
@@ -168,7 +188,7 @@ class Sweep {
   ResponseBranch trace_inwards(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u,
                                double end) {
     const auto began = std::chrono::steady_clock::now();
-    Course course{described(*model_), {}, end, {}};
+    Course course = course_from(end);
     const bool is_up = end == lower_;
     const auto traced = frequency_branch_part(
         problem, {lower_, upper_}, end, is_up ? upper_ : lower_, u, recording(course), is_up ? 1 : -1,
@@ -207,10 +227,11 @@ class Sweep {
   // What is recorded along a branch.
   struct Course {
     ResponseBranch result;
-    std::vector<std::pair<double, double>> sizes;  // frequency, |u| in scales
-    double last;                                   // frequency
-    Unboundedness growth;
+    double last;  // frequency
+    PoleWatch watch;
   };
+
+  Course course_from(double omega) const { return {described(*model_), omega, {lower_, upper_}}; }
 
   Record recording(Course& course) {
     return [&](Observer& observer, const continuation::Accepted& now, const continuation::Event* event) {
@@ -222,14 +243,9 @@ class Sweep {
         return true;
       }
       const double omega = now.p[model::frequency];
-      const bool was_within = course.sizes.empty() || course.sizes.back().second <= beyond_display;
-      course.sizes.emplace_back(omega, now.u.norm() / observer.problem().displacement());
-      if (was_within && course.sizes.back().second > beyond_display) {
-        course.growth = unboundedness(observer.problem(), now.p, now.u);
-        if (course.growth.unbounded) return false;
-      }
+      if (course.watch.is_next_to_pole(observer.problem(), now.p, now.u)) return false;
       result.points.push_back(observer.observe(now));
-      told_.points = static_cast<long>(course.sizes.size());
+      told_.points = static_cast<long>(result.points.size());
       told_.frequency = omega / unit_;
       told_.step = (omega - course.last) / unit_;
       told_.share_done = std::clamp((omega - lower_) / (upper_ - lower_), 0.0, 1.0);
@@ -245,7 +261,7 @@ class Sweep {
     const ResponsePoint& first = branch.points[part.first];
     const double to = branch.points[part.last].omega;
     const int direction = branch.points[part.first + 1].omega > first.omega ? 1 : -1;
-    Course course{described(*model_), {}, first.omega, {}};
+    Course course = course_from(first.omega);
     const ResponsePoint start = in_harmonics(first, branch, course.result);
     const Eigen::Map<const Vector> u(start.unknowns.data(), static_cast<Eigen::Index>(start.unknowns.size()));
     const auto traced = frequency_branch_part(
@@ -272,8 +288,10 @@ class Sweep {
     ResponseBranch& result = course.result;
     const continuation::Branch& branch = traced.branch;
     add(branch.counts, result.solver);
-    if (course.growth.unbounded) {
-      end_unbounded(result, course.growth, course.sizes);
+    const Unboundedness& growth = course.watch.growth();
+    if (growth.unbounded) {
+      end_unbounded(result, growth, course.watch.pole());
+      far_side_ = course.watch.beyond();
       return;
     }
     const bool is_through = branch.stop.reason == StopReason::boundary && branch.stop.value == upper_;
@@ -282,14 +300,12 @@ class Sweep {
     tell_end(branch.stop, from, upper_, frequency_unit_, result);
     if (is_through && !result.doubt.empty()) result.stop.message += "; " + result.doubt;
     if (result.stop.reason != reasons::boundary && branch.stop.reason != StopReason::start_failed &&
-        !course.growth.message.empty())
-      result.stop.message += "; " + course.growth.message;
+        !growth.message.empty())
+      result.stop.message += "; " + growth.message;
   }
 
-  // The peak at infinity, and the frequency at which the branch is resumed beyond the pole.
-  void end_unbounded(ResponseBranch& result, const Unboundedness& growth,
-                     const std::vector<std::pair<double, double>>& course) {
-    const double omega = course.back().first;
+  // The peak at infinity, at the frequency omega of the pole.
+  void end_unbounded(ResponseBranch& result, const Unboundedness& growth, double omega) const {
     result.status = Status::complete;
     result.stop = {reasons::unbounded, growth.dissipation, growth.input,
                    growth.message + ", near " + with_unit(omega)};
@@ -299,7 +315,6 @@ class Sweep {
     peak.point.unbounded = true;
     peak.after = result.points.empty() ? 0 : result.points.size() - 1;
     result.events.push_back(std::move(peak));
-    far_side_ = beyond_pole(course, upper_ - lower_);
   }
 
   std::string with_unit(double omega) const { return frequency_text(omega, frequency_unit_); }
@@ -313,7 +328,7 @@ class Sweep {
   Steps steps_;
   const ProgressCallback& progress_;
   std::shared_ptr<const model::Model> model_;
-  double far_side_ = 0;
+  BeyondPole far_side_{};
   Progress told_{};
   bool stopped_ = false;  // by the callback
 };

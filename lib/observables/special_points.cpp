@@ -5,6 +5,7 @@
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/observe.hpp>
 #include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
 
 #include <algorithm>
@@ -18,46 +19,47 @@ using continuation::Accepted;
 using continuation::StopReason;
 using continuation::Vector;
 
-// From `from` to the next pole, or to the end of the window. Returns where the branch goes on beyond that
+// From a place to the next pole, or to the end of the window. Returns where the branch goes on beyond that
 // pole, or the end of the window that it reached.
-double add_points(const std::shared_ptr<const model::Model>& model, double over, double from, int direction,
-                  const FrequencyWindow& window, const std::vector<std::string>& kinds, const GoOn& go_on,
-                  SpecialPoints& found) {
-  const double width = window.upper - window.lower;
+BeyondPole add_points(const std::shared_ptr<const model::Model>& model, double over, const BeyondPole& place,
+                      int direction, const FrequencyWindow& window, const std::vector<std::string>& kinds,
+                      const GoOn& go_on, SpecialPoints& found) {
+  const double from = place.starts.front();
   if (const auto growth = unbounded_resonance(model, from); growth.unbounded) {
     found.unbounded = growth.message;
-    return beyond_pole({{from, HUGE_VAL}}, width);
+    return beyond_pole_at_start(from, window.upper - window.lower);
   }
   const std::size_t before = found.points.size();
-  std::vector<std::pair<double, double>> course{{from, 0.0}};
-  bool unbounded = false;
+  PoleWatch watch(window.lower, window.upper);
   const auto record = [&](Observer& observer, const Accepted& now, const continuation::Event* event) {
     if (event) {
       if (std::find(kinds.begin(), kinds.end(), event->monitor) == kinds.end()) return true;
+      const ResponsePoint point = observer.observe(now);
+      if (event->monitor == event_kinds::peak && is_rounding(point)) return true;
       Vector x(now.u.size() + 1);
       x << now.u, now.parameter;
-      found.points.push_back(
-          {{}, over, std::move(x), event->nonsmooth, event->monitor, observer.observe(now).amplitude});
+      found.points.push_back({{}, over, std::move(x), event->nonsmooth, event->monitor, point.amplitude});
       return true;
     }
-    const double last = course.back().second;
-    course.emplace_back(now.parameter, now.u.norm() / observer.problem().displacement());
-    if (!(course.back().second > beyond_display && last <= beyond_display)) return true;
-    const auto growth = unboundedness(observer.problem(), now.p, now.u);
-    unbounded = growth.unbounded;
-    if (unbounded) found.unbounded = growth.message;
-    return !unbounded;
+    return !watch.is_next_to_pole(observer.problem(), now.p, now.u);
   };
   const bool stability = std::any_of(kinds.begin(), kinds.end(), is_bifurcation);
   const bool phase = std::find(kinds.begin(), kinds.end(), event_kinds::phase_resonance) != kinds.end();
   const auto swept = frequency_branch(model, window, from, record, direction, Steps::curve, go_on,
-                                      {.stability = stability, .phase = phase});
+                                      {.stability = stability, .phase = phase}, place.displacement);
+  if (swept.branch.stop.reason == StopReason::start_failed && place.starts.size() > 1) {
+    const BeyondPole farther{{place.starts.begin() + 1, place.starts.end()}, place.displacement};
+    return add_points(model, over, farther, direction, window, kinds, go_on, found);
+  }
   found.unknown_stability = swept.unknown_stability;
   for (std::size_t i = before; i < found.points.size(); ++i) found.points[i].problem = swept.problem;
-  if (unbounded) return beyond_pole(course, width);
-  if (swept.branch.stop.reason == StopReason::boundary) return swept.branch.stop.value;
+  if (watch.growth().unbounded) {
+    found.unbounded = watch.growth().message;
+    return watch.beyond();
+  }
+  if (swept.branch.stop.reason == StopReason::boundary) return {{swept.branch.stop.value}};
   found.failure = swept.branch.stop.message;
-  return window.upper;
+  return {{window.upper}};
 }
 
 }  // namespace
@@ -66,15 +68,16 @@ SpecialPoints special_points(const OverParameter& way, double over, const Freque
                              const std::vector<std::string>& kinds, const GoOn& go_on) {
   SpecialPoints found;
   const auto model = way.at(over);
-  double from = window.lower;
+  BeyondPole from{{window.lower}};
   bool turned_back = false;
-  for (int piece = 0; piece <= 2 * model->dofs && from < window.upper && !turned_back; ++piece) {
-    const double reached = add_points(model, over, from, 1, window, kinds, go_on, found);
-    turned_back = reached <= from;
-    from = reached;
+  for (int piece = 0; piece <= 2 * model->dofs && from.starts.front() < window.upper && !turned_back;
+       ++piece) {
+    BeyondPole reached = add_points(model, over, from, 1, window, kinds, go_on, found);
+    turned_back = reached.starts.front() <= from.starts.front();
+    from = std::move(reached);
   }
   // Responses above the fold at which it turned back are on another branch, or reached from above.
-  if (turned_back) add_points(model, over, window.upper, -1, window, kinds, go_on, found);
+  if (turned_back) add_points(model, over, {{window.upper}}, -1, window, kinds, go_on, found);
   return found;
 }
 

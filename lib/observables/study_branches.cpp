@@ -11,6 +11,7 @@ namespace arcslip::observables {
 namespace {
 
 constexpr double constant = 1e-11;             // relative changes of the amplitude below
+constexpr double at_rest_to = 1e-12;           // of |u|: a coordinate with less does not move
 constexpr std::ptrdiff_t points_per_side = 2;  // that are looked at, on each side
 constexpr double largest_estimate = 0.1;       // of the amplitude: beyond, the first order is not all
 constexpr int points_of_flat_peak = 3;         // on both sides: a point may lie next to any peak by chance
@@ -44,6 +45,20 @@ bool departs(const std::vector<std::pair<double, double>>& course, double arclen
   return std::any_of(first, after, differs) && std::any_of(after, last, differs);
 }
 
+bool is_rounding(const ResponsePoint& point) {
+  const auto& u = point.unknowns;
+  return !point.unbounded &&
+         point.amplitude <=
+             at_rest_to *
+                 Eigen::Map<const continuation::Vector>(u.data(), static_cast<Eigen::Index>(u.size())).norm();
+}
+
+void drop_peaks_of_rounding(ResponseBranch& branch) {
+  std::erase_if(branch.events, [](const ResponseEvent& event) {
+    return event.kind == event_kinds::peak && is_rounding(event.point);
+  });
+}
+
 void drop_extrema_of_rounding(const std::vector<std::pair<double, double>>& course,
                               const std::vector<double>& at, ResponseBranch& result) {
   std::vector<bool> drops(at.size());
@@ -63,7 +78,7 @@ void drop_extrema_of_rounding(const std::vector<std::pair<double, double>>& cour
                                       : next == course.begin() || is_beyond((next - 1)->second);
     const bool after = precedes_event ? is_beyond(result.events[i + 1].point.amplitude)
                                       : next == course.end() || is_beyond(next->second);
-    drops[i] = !before || !after || !departs(course, at[i], amplitude);
+    drops[i] = !before || !after || is_rounding(result.events[i].point) || !departs(course, at[i], amplitude);
   }
   for (std::size_t i = at.size(); i-- > 0;)
     if (drops[i]) result.events.erase(result.events.begin() + static_cast<std::ptrdiff_t>(i));

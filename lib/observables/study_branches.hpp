@@ -32,6 +32,12 @@ bool departs(const std::vector<std::pair<double, double>>& course, double arclen
 void drop_extrema_of_rounding(const std::vector<std::pair<double, double>>& course,
                               const std::vector<double>& at, ResponseBranch& result);
 
+/// Whether the amplitude is that of a place that does not move, but for rounding.
+bool is_rounding(const ResponsePoint& point);
+
+/// Without the peaks of such places.
+void drop_peaks_of_rounding(ResponseBranch& branch);
+
 /// Flat peaks: of three neighbouring points or more, not flagged, which differ by less than twice the
 /// truncation estimates of both, the peak may be anywhere among these. They get the largest estimate there,
 /// and what a point there is higher. A truncated response has its peaks where the harmonics left out would

@@ -5,6 +5,7 @@
 #include <arcslip/results/text.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -18,9 +19,13 @@ constexpr double grows = 100;                        // between these: less is n
 constexpr double large = 1e6;                        // of that response, as a shape of large amplitude
 constexpr double negligible = 1e-9;  // share of a shape in an element or damper that does not count
 constexpr double least_part = 1e-4;  // of a shape in a law whose work grows: less moves beside the resonance
+constexpr double beyond_display = 1e6;  // |u| in scales: larger responses may be unbounded
+constexpr double close_by = 1e-5;       // of its frequency: as near a pole is told, and known to 1e-10
+constexpr double agrees = 0.1;          // of the distance to a pole: that to which its estimates agree
+constexpr double on_end = 1e-9;         // of the frequency at an end of the window: there, too, is a pole
 constexpr double least_beyond = 1e-6;  // of the pole's frequency: nearer, a start would be taken for the pole
+constexpr std::array farther_beyond{1e-4, 1e-2};  // of it, where no response is found there
 constexpr double without_course = 1.0 / 150;  // of the window: as far beyond a pole that the branch begins at
-constexpr double next_to_pole = 100;  // |u| in scales: where the far side of an unbounded peak is taken up
 
 }  // namespace
 
@@ -137,11 +142,57 @@ Unboundedness unbounded_resonance(const std::shared_ptr<const model::Model>& mod
   return balance(problem, p, large * u, as_fast);
 }
 
-double beyond_pole(const std::vector<std::pair<double, double>>& course, double width) {
-  const double omega = course.back().first;
-  for (auto it = course.rbegin(); it != course.rend(); ++it)
-    if (it->second <= next_to_pole) return std::max(2 * omega - it->first, (1 + least_beyond) * omega);
-  return omega + width * without_course;
+BeyondPole beyond_pole_at_start(double omega, double width) {
+  return {{omega + width * without_course}};
+}
+
+// The last place before, at which |u| is at most half as large.
+const PoleWatch::Place* PoleWatch::half_as_large(const Place& of) const {
+  for (const Place* at = &of; at-- != course_.data();)
+    if (at->size <= of.size / 2) return at;
+  return nullptr;
+}
+
+std::optional<double> PoleWatch::pole_ahead() const {
+  const Place& now = course_.back();
+  const Place* before = half_as_large(now);
+  const Place* first = before ? half_as_large(*before) : nullptr;
+  if (!first) return {};
+  // 1/|u| is linear in the frequency.
+  const auto distance = [](const Place& a, const Place& b) {
+    return (b.omega - a.omega) * a.size / (b.size - a.size);
+  };
+  const double ahead = distance(*before, now), known_before = distance(*first, *before);
+  const double pole = now.omega + ahead;
+  const bool agree = std::abs(before->omega + known_before - pole) <= agrees * std::abs(ahead);
+  const bool within = pole >= lower_ * (1 - on_end) && pole <= upper_ * (1 + on_end);
+  if (!agree || !within || !(std::abs(ahead) <= close_by * now.omega)) return {};
+  return std::clamp(pole, lower_, upper_);
+}
+
+bool PoleWatch::is_next_to_pole(const hbm::HbmProblem& problem, const continuation::Vector& p,
+                                const continuation::Vector& u) {
+  const double large_size = beyond_display * problem.displacement();
+  const bool was_large = !course_.empty() && course_.back().size > large_size;
+  course_.push_back({p[model::frequency], u.norm()});
+  if (!(course_.back().size > large_size)) return false;
+  const auto pole = pole_ahead();
+  if (was_large && !pole) return false;
+  growth_ = unboundedness(problem, p, u);
+  if (!growth_.unbounded) return false;
+  if (!pole) growth_ = {};
+  pole_ = pole.value_or(0);
+  return growth_.unbounded;
+}
+
+BeyondPole PoleWatch::beyond() const {
+  const Place& last = course_.back();
+  const double distance = pole_ - last.omega, side = distance < 0 ? -1 : 1;
+  BeyondPole there;
+  there.starts.push_back(pole_ + side * std::max(std::abs(distance), least_beyond * pole_));
+  for (const double share : farther_beyond) there.starts.push_back(pole_ * (1 + side * share));
+  there.displacement = last.size * std::abs(distance) / pole_;
+  return there;
 }
 
 }  // namespace arcslip::observables

@@ -10,13 +10,12 @@
 
 #include <arcslip/hbm/problem.hpp>
 
+#include <memory>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace arcslip::observables {
-
-inline constexpr double beyond_display = 1e6;  // |u| in scales: larger responses may be unbounded
 
 struct Unboundedness {
   bool unbounded = false;
@@ -32,9 +31,44 @@ Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::
 /// pole within about 1e-7 omega; otherwise nothing is unbounded.
 Unboundedness unbounded_resonance(const std::shared_ptr<const model::Model>& model, double omega);
 
-/// The frequency, rad/s, at which a branch is resumed beyond an unbounded peak: as far beyond the pole as
-/// before it. course: frequency and |u| in scales of its points, the last at the pole. width: of the
-/// frequency window, rad/s.
-double beyond_pole(const std::vector<std::pair<double, double>>& course, double width);
+/// Where a branch goes on beyond a pole.
+struct BeyondPole {
+  std::vector<double> starts;  // rad/s: the first of them that has a response
+  double displacement = 0;     // m: the scale there; 0: that of the first response
+};
+
+/// Beyond a pole (rad/s) that a branch begins at. width: of the frequency window, rad/s.
+BeyondPole beyond_pole_at_start(double omega, double width);
+
+/// Along a branch over the frequency: whether it grows without bound, and at which frequency. Next to a pole
+/// omega_0 of the response, |u| = c/|omega - omega_0|: it is one where the omega_0 of its last points, over
+/// which |u| doubles twice, agree and are close by, and where the balance above holds. A response that has
+/// only grown much may be anywhere: one that begins all but stuck, or with the ground all but at rest, has
+/// grown a million times far from any resonance.
+class PoleWatch {
+ public:
+  /// Of the frequency window, rad/s. Poles beyond it are none of the branch.
+  PoleWatch(double lower, double upper) : lower_(lower), upper_(upper) {}
+
+  /// At each point of the branch in turn: whether it is next to a pole at which it is unbounded.
+  bool is_next_to_pole(const hbm::HbmProblem& problem, const continuation::Vector& p,
+                       const continuation::Vector& u);
+
+  /// There; before, why the response is bounded, as far as it was asked.
+  const Unboundedness& growth() const { return growth_; }
+  double pole() const { return pole_; }  // rad/s
+  BeyondPole beyond() const;
+
+ private:
+  struct Place {
+    double omega, size;  // rad/s, m
+  };
+  const Place* half_as_large(const Place& of) const;
+  std::optional<double> pole_ahead() const;
+
+  double lower_, upper_, pole_ = 0;
+  std::vector<Place> course_;
+  Unboundedness growth_;
+};
 
 }  // namespace arcslip::observables

@@ -23,6 +23,7 @@ constexpr double safety = 1.3;                                  // of the error 
 constexpr int fewest_samples = 512;
 constexpr double least_damping_ratio = 1e-8;  // rounding is 1e-8 of it
 constexpr double samples_rate = 1.5;
+constexpr double largest_estimate = 1;  // of the largest amplitude
 
 // Rounded up to an odd multiple of the period: with an antisymmetric motion an even one adds nothing.
 int rounded_up(double order, int period) {
@@ -163,10 +164,15 @@ int OrderSelection::next() const {
   return std::min(rounded_up(std::max(growth * order_, order_ + 1.0 * period_), period_), highest_);
 }
 
+// Estimates are linear in what the harmonics left out change: larger ones than the response say nothing.
+double OrderSelection::told_error() const {
+  return error_ > largest_estimate ? no_value : error_;
+}
+
 void OrderSelection::tell(results::End& end) const {
   results::Value::List orders(orders_.begin(), orders_.end());
   end.facts.push_back({"accuracy", results::Object{{"wanted", wanted_},
-                                                   {"error", error_},
+                                                   {"error", told_error()},
                                                    {"order", orders_.empty() ? order_ : orders_.back()},
                                                    {"orders", std::move(orders)}}});
   const std::string with = " with harmonics up to " + std::to_string(order_);
@@ -180,9 +186,10 @@ void OrderSelection::tell(results::End& end) const {
   if (is_reached())
     append(end.remark, "accuracy " + to_two_digits(error_) + with);
   else if (!ended_ && end.status == results::Status::complete)
-    append(end.doubt, "the accuracy " + results::shortest(wanted_) + " is not reached: " +
-                          (std::isfinite(error_) ? to_two_digits(error_) : "the error is not known") + with +
-                          (given_up_ ? ", since a higher order was interrupted" : ""));
+    append(end.doubt,
+           "the accuracy " + results::shortest(wanted_) + " is not reached: " +
+               (std::isfinite(told_error()) ? to_two_digits(told_error()) : "the error is not known") + with +
+               (given_up_ ? ", since a higher order was interrupted" : ""));
 }
 
 }  // namespace arcslip::studies

@@ -80,6 +80,7 @@ class OrderSelection {
  private:
   double error_by_change(const Truncation& found) const;
   bool is_confirmed(const Truncation& found) const;
+  double told_error() const;
   int next() const;
 
   double wanted_;

@@ -19,7 +19,6 @@ namespace {
 
 using continuation::StopReason;
 
-constexpr double beyond_display = 1e6;     // |u| in scales: where it is asked whether the response is bounded
 constexpr double at_limit = 1e-6;          // of mu F_n: a peak nearer to a stick limit sits at its corner
 constexpr double small_difference = 1e-6;  // relative, of finite differences in the design
 constexpr double same_instant = 0.3;       // rad: of one extreme at two designs, one after the other
@@ -103,20 +102,14 @@ PeakState PeakAmplitude::response(std::span<const double> design, observables::S
   if (go_on_ && !go_on_()) throw Interrupted();
   work_.factorizations += traced.branch.counts.factorizations;
   const auto& points = traced.branch.points;
-  bool asked = false;
-  for (const continuation::Point& point : points) {
-    const bool beyond = point.u.norm() > beyond_display * traced.problem->displacement();
-    if (beyond && !asked) {
-      const Vector p = hbm::parameters_at(*traced.problem, point.parameter);
-      const auto growth = observables::unboundedness(*traced.problem, p, point.u);
-      if (growth.unbounded) {
-        found.unbounded = true;
-        found.message = growth.message;
-        return found;
-      }
+  observables::PoleWatch watch(window_.lower, window_.upper);
+  for (const continuation::Point& point : points)
+    if (watch.is_next_to_pole(*traced.problem, hbm::parameters_at(*traced.problem, point.parameter),
+                              point.u)) {
+      found.unbounded = true;
+      found.message = watch.growth().message;
+      return found;
     }
-    asked = beyond;
-  }
   problem_ = traced.problem;
   const auto& stop = traced.branch.stop;
   found.complete = stop.reason == StopReason::boundary && stop.value == window_.upper;
