@@ -3,6 +3,7 @@
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -157,12 +158,21 @@ Eigen::MatrixXd stiffness_matrix(const Model& model, const continuation::Vector&
 
 namespace {
 
-// A contact that opens, along its normal. Of a ring: where all sectors move alike.
+// A contact that opens, along its normal, or a stop. Of a ring: where all sectors move alike.
 struct OpeningContact {
   const NonlinearPart& element;
   Direction normal;
   std::vector<double> fields;
-  double stiffness;  // N/m
+  double stiffness;  // N/m: the largest
+
+  // N, where it is held at x.
+  double force(const elements::Harmonics& h, const Eigen::VectorXd& x) const {
+    const double displacement = normal.dot(x);
+    if (element.law->has_normal_load()) return element.law->normal_load_at(fields, displacement);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(h.size());
+    u[h.cosine_index(0)] = displacement;
+    return element.law->force_at(h, u, fields, std::array{0.0})(0, 0);
+  }
 };
 
 Direction in_phase_along(const NonlinearPart& element, std::size_t i) {
@@ -173,7 +183,8 @@ Direction in_phase_along(const NonlinearPart& element, std::size_t i) {
 std::vector<OpeningContact> contacts_open_at_rest(const Model& model, const continuation::Vector& p) {
   std::vector<OpeningContact> found;
   for (const NonlinearPart& element : model.elements) {
-    if (!element.law->has_normal_load()) continue;
+    const bool is_stop = element.directions.size() == 1 && !element.law->dissipative();
+    if (!element.law->has_normal_load() && !is_stop) continue;
     const std::size_t normal = element.directions.size() - 1;
     const std::vector<double> fields = element.fields(p);
     const auto traits = element.law->traits(fields, static_cast<int>(normal));
@@ -220,9 +231,6 @@ std::vector<Direction> closed_by_constant_force(const Model& model, const contin
   for (const OpeningContact& contact : contacts) add_outer(contact.stiffness, contact.normal, resting);
   K.diagonal() += soft * resting.cwiseAbs().rowwise().maxCoeff();
   if (!K.allFinite() || K.diagonal().cwiseAbs().minCoeff() == 0) return {};
-  const auto load = [](const OpeningContact& contact, const Eigen::VectorXd& x) {
-    return contact.element.law->normal_load_at(contact.fields, contact.normal.dot(x));
-  };
   Eigen::VectorXd x = Eigen::VectorXd::Zero(model.dofs);
   continuation::LU<double> lu(model.dofs);
   Eigen::VectorXd correction(model.dofs);
@@ -232,9 +240,9 @@ std::vector<Direction> closed_by_constant_force(const Model& model, const contin
     Eigen::VectorXd residual = K * x - f;
     last = closed;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
-      const double N = load(contacts[c], x);
-      closed[c] = N > 0;
-      residual += N * contacts[c].normal;
+      const double force = contacts[c].force(model.harmonics, x);
+      closed[c] = force != 0;
+      residual += force * contacts[c].normal;
       if (closed[c]) add_outer(contacts[c].stiffness, contacts[c].normal, tangent);
     }
     lu.factorize(tangent);
@@ -244,7 +252,8 @@ std::vector<Direction> closed_by_constant_force(const Model& model, const contin
   }
   std::vector<Direction> found;
   for (const OpeningContact& contact : contacts)
-    if (load(contact, x) * contact.normal.norm() > carries * f.norm()) found.push_back(contact.normal);
+    if (std::abs(contact.force(model.harmonics, x)) * contact.normal.norm() > carries * f.norm())
+      found.push_back(contact.normal);
   return found;
 }
 

@@ -33,8 +33,9 @@ constexpr int quick_dofs = 200;                  // up to here a problem is made
 
 // Beside a drifting degree of freedom: of contacts that open, if there are any.
 std::string no_contact_closes(const model::Model& model) {
-  const bool opens = std::any_of(model.elements.begin(), model.elements.end(),
-                                 [](const auto& element) { return element.law->has_normal_load(); });
+  const bool opens = std::any_of(model.elements.begin(), model.elements.end(), [](const auto& element) {
+    return element.law->has_normal_load() || !element.law->dissipative();
+  });
   return opens ? ", nor does a contact that the constant forces close" : "";
 }
 

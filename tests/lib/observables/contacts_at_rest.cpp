@@ -66,6 +66,30 @@ TEST_CASE("a constant force that opens the contact, or none, leaves the block fr
   }
 }
 
+TEST_CASE("a mass that a constant force alone presses against a stop stays there, as on a spring") {
+  // It moves by 0.5 N / |10 - w^2 + 0.1 i w| about 0.6 m, more than the stop's gap of 0.1 m by 0.5 m.
+  for (const double side : {1.0, -1.0}) {
+    scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+      "structure": {"dofs": ["y"], "masses": [{"name": "m", "at": "y", "value": 1}],
+        "dampers": [{"name": "c", "at": "y", "value": 0.1}]},
+      "elements": [{"name": "stop", "type": "gap_spring", "at": "y", "two_sided": false, "stiffness": 10, "gap": 0.1}],
+      "excitation": [{"name": "f", "at": "y", "cosine": 0.5},
+        {"name": "press", "at": "y", "cosine": 5, "harmonic": 0}],
+      "harmonics": {"order": 5}, "response": {"at": "y"}, "studies": [{"kind": "frf", "from": 0.3, "to": 1.5}]})");
+    scene::set(s, "press.cosine", side * 5);
+    const auto branches = observables::frequency_response(s, {0.3, 1.5});
+    CAPTURE(side, branches[0].stop.message);
+    if (side < 0) {
+      CHECK(branches[0].stop.reason == observables::reasons::start_failed);
+      continue;
+    }
+    REQUIRE(branches[0].stop.reason == observables::reasons::boundary);
+    for (const auto& point : branches[0].points)
+      CHECK(std::abs(point.amplitude - 0.6 -
+                     0.5 / std::hypot(10 - point.omega * point.omega, 0.1 * point.omega)) < 1e-9);
+  }
+}
+
 TEST_CASE("a wedge pressed between two masses is held by its two contacts") {
   const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "Hz",
     "structure": {"dofs": ["x1", "y1", "x2", "y2", "xd", "yd"],
