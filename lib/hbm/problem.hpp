@@ -137,13 +137,13 @@ Vector linear_response(const HbmProblem& problem, const Vector& p);
 /// Newton's method from a guess. Empty if it fails.
 std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, const Vector& guess);
 
-/// Newton's method from rest, from the linear response and from that with all sliders stuck; if none
-/// converges, continuation in the excitation factor from rest at 0 to 1 or -1, where the response is that at
-/// 1 reversed, or from a part of the excitation; and at last continuation in a factor of the element forces,
-/// as for a stop without a gap, which has a kink at rest: from the structure without elements or, where that
-/// has no response, with springs in place of them, as for a mass between two stops; and Newton's method from
-/// motions at random, the same in each run. Empty if that fails, too, or if go_on, called meanwhile, returns
-/// false.
+/// Newton's method from rest, from the linear response and from those with all sliders stuck and with springs
+/// in place of the elements; if none converges, continuation in the excitation factor from rest at 0 to 1 or
+/// -1, where the response is that at 1 reversed, or from a part of the excitation; and at last continuation
+/// in a factor of the element forces, as for a stop without a gap, which has a kink at rest: from the
+/// structure without elements or, where that has no response, with springs in place of them, as for a mass
+/// between two stops; and Newton's method from motions at random, the same in each run. Empty if that fails,
+/// too, or if go_on, called meanwhile, returns false.
 std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
                                    const std::function<bool()>& go_on = {});
 

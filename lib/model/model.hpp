@@ -248,8 +248,9 @@ Eigen::MatrixXd damping_matrix(const Model& model, const continuation::Vector& p
 Eigen::MatrixXd stiffness_matrix(const Model& model, const continuation::Vector& p);
 
 /// With a mean among the unknowns: a degree of freedom whose mean position is supported by no spring or law,
-/// directly or through others. Friction forces do not depend on it, so that it would be arbitrary or drift.
-/// Empty if there is none. in_stick: contacts that hold a mean force while they stick count as supports.
+/// directly or through others, nor by a contact or stop that the constant forces close. Friction forces do
+/// not depend on it, so that it would be arbitrary or drift. Empty if there is none. in_stick: contacts that
+/// hold a mean force while they stick count as supports.
 std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p, bool in_stick = true);
 
 /// For messages: a degree of freedom by its name, in quotes; "the structure" where the scene has none for it.

@@ -254,6 +254,22 @@ TEST_CASE("an accuracy that is not reached is told") {
   CHECK(doubt.ends_with(" with harmonics up to 15"));
 }
 
+TEST_CASE("an accuracy is not known where the estimate is larger than the response") {
+  const scene::Scene isolator = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}]},
+    "elements": [{"name": "fr", "type": "jenkins", "at": "x", "stiffness": 1e4, "friction_coefficient": 1,
+      "normal_load": 0.5}],
+    "excitation": [{"name": "base", "type": "base_displacement", "cosine": 1}], "response": {"at": "x"},
+    "studies": [{"kind": "frf", "from": 0.3, "to": 0.9}]})");
+  const Json all = results_json(accurate(isolator, 1e-4, 15));
+  const Json& branch = all["branches"][0];
+  CHECK(branch["status"] == "complete");
+  CHECK(branch["accuracy"]["error"].is_null());
+  const std::string doubt = branch["doubt"];
+  CHECK(doubt == "the accuracy 1e-04 is not reached: the error is not known with harmonics up to 15");
+}
+
 TEST_CASE("a study that the user ends has the order that it had") {
   long calls = 0;
   const Json all = results_json(
