@@ -11,6 +11,7 @@ namespace fuzz {
 
 /// Of the test.
 inline constexpr Volume mutants{"ARCSLIP_MUTANTS", 3000, 100'000};
+inline constexpr Volume first_mutant{"ARCSLIP_FIRST_MUTANT", 1, 1};
 
 /// A mutant of the text, of at most `most` bytes. About half of them are sound JSON with another number, name
 /// or part here and there; the others have huge lists, deep nesting, words and bytes that no scene should
