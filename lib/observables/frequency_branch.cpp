@@ -247,10 +247,6 @@ FrequencyBranch traced(const std::shared_ptr<const hbm::HbmProblem>& problem, co
   return found;
 }
 
-}  // namespace
-
-namespace {
-
 // The response without the elements over the scale of a problem, if it is larger: where contacts stick, or
 // the ground hardly moves, the first response is small beside all that follows. The middle one of three,
 // since one of them may be at a resonance.

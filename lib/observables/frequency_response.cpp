@@ -100,14 +100,14 @@ class Sweep {
   }
 
   // From the first of these starts at which a response is found.
-  TracedBranch trace_from_first_of(const BeyondPole& place) {
-    const BeyondPole there = place;
-    for (std::size_t i = 0; i + 1 < there.starts.size() && there.starts[i + 1] < upper_; ++i) {
-      TracedBranch found = trace_from(there.starts[i], there.displacement);
-      if (found.response.stop.reason != reasons::start_failed) return found;
+  TracedBranch trace_from_first_of(const BeyondPole place) {
+    std::optional<TracedBranch> found;
+    for (const double from : place.starts) {
+      if (found && !(from < upper_)) break;
+      found = trace_from(from, place.displacement);
+      if (found->response.stop.reason != reasons::start_failed) break;
     }
-    return trace_from(there.starts.back() < upper_ ? there.starts.back() : there.starts.front(),
-                      there.displacement);
+    return std::move(*found);
   }
 
   Following following() {
