@@ -43,6 +43,7 @@ std::string words_of(const std::string& kind) {
   if (kind == event_kinds::period_doubling) return "period doubling";
   if (kind == event_kinds::neimark_sacker) return "Neimark-Sacker point";
   if (kind == event_kinds::symmetry_breaking) return "break of symmetry";
+  if (kind == event_kinds::branch_point) return "branch point";
   return kind;
 }
 

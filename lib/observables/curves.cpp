@@ -5,6 +5,7 @@
 #include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/reasons.hpp>
 #include <arcslip/observables/resonances.hpp>
+#include <arcslip/observables/solutions_beside.hpp>
 #include <arcslip/observables/special_curve.hpp>
 #include <arcslip/observables/study_branches.hpp>
 
@@ -77,6 +78,8 @@ class Curves {
                          ", nor up to " + to_digits(way_.to, 8) + ", between " +
                          frequency_text(window_.lower, unit_) + " and " +
                          frequency_text(window_.upper, unit_) + (why.empty() ? "" : ": " + why)));
+      if (failure_.empty() && unbounded_.empty() && is_bifurcation(kinds_.front()))
+        branches.back().found_none = seen_;
     } else if (!failure_.empty()) {
       branches.push_back(parts_.failed(failed_at_, failure_));
     }
@@ -98,11 +101,15 @@ class Curves {
   std::string what_was_looked_at() const {
     if (is_bifurcation(kinds_.front())) {
       const std::string values = " " + std::to_string(looked_at_.size()) + " values of " + way_.name;
-      if (all_)
-        return "all branches were looked at, for" + values + ", up to " + std::to_string(most_seen_) +
-               " of them";
-      return "the branch that begins at " + frequency_text(window_.lower, unit_) + " was looked at, for" +
-             values + ", and none that leaves it (\"branches\": \"all\")";
+      if (!all_)
+        return "the branch that begins at " + frequency_text(window_.lower, unit_) + " was looked at, for" +
+               values + ", and no other (\"branches\": \"all\")";
+      return "the branches from the ends of the window and those that leave them were looked at, for" +
+             values + ", up to " + std::to_string(most_seen_) + " of them; others were " +
+             (all_->searches > 0
+                  ? "searched for at " + std::to_string(all_->searches) +
+                        (all_->searches == 1 ? " frequency" : " frequencies") + " of each value"
+                  : "not searched for (\"searches\")");
     }
     if (is_zero_of_function(kinds_.front())) return "";
     Vector p = model::defaults(*way_.model);
@@ -128,7 +135,9 @@ class Curves {
     const SpecialPoints response = seen_at(over);
     if (stopped_) return;
     most_seen_ = std::max(most_seen_, response.branches);
+    take(response.looked_at);
     tell_untraced(response.untraced, over);
+    tell_leaving(response.leaving, over);
     double highest = 0;
     for (const SpecialPoint& start : response.points) highest = std::max(highest, start.amplitude);
     for (const SpecialPoint& start : response.points) {
@@ -158,6 +167,12 @@ class Curves {
     });
   }
 
+  void take(const LookedAt& responses) {
+    seen_.amplitude = std::max(seen_.amplitude, responses.amplitude);
+    seen_.estimate = std::fmax(seen_.estimate, responses.estimate);
+    seen_.flagged = seen_.flagged || responses.flagged;
+  }
+
   // One of each reason.
   void tell_untraced(const std::vector<std::string>& all, double over) {
     const auto why = [](const std::string& text) { return text.substr(text.rfind(": ") + 1); };
@@ -167,12 +182,20 @@ class Curves {
         untraced_.push_back("at " + way_.name + " = " + to_digits(over, 8) + ", " + each);
   }
 
+  void tell_leaving(const std::vector<LeavingBranch>& all, double over) {
+    std::vector<std::string> told;
+    for (const LeavingBranch& each : all)
+      told.push_back("the branch that leaves at the " + words_of(each.kind) + " at " +
+                     frequency_text(each.omega, unit_) + ": only one branch was looked at (branches)");
+    tell_untraced(told, over);
+  }
+
   void follow(const SpecialPoint& start, double share) {
     const auto began = std::chrono::steady_clock::now();
     const std::unique_ptr<CurveTracer> tracer = make_tracer(start);
     const auto passes = [&](const Found& found) {
       return found.kind == start.kind && is_alike(found, *start.problem) &&
-             tracer->passes(found.curve, start);
+             passes_an_image(*tracer, found.curve, start);
     };
     if (std::any_of(found_.begin(), found_.end(), passes)) return;
     const int ahead = way_.direction();
@@ -192,6 +215,18 @@ class Curves {
     std::string doubt = doubt_of_rounding(*way_.model, p, curve.counts);
     found_.push_back({start.kind, std::move(curve), start.problem, seconds.count(), std::move(doubt),
                       section_->unknown_stability()});
+  }
+
+  // The images of a motion have the same curve.
+  static bool passes_an_image(const CurveTracer& tracer, const SpecialCurve& curve,
+                              const SpecialPoint& point) {
+    const Eigen::Index n = point.problem->size();
+    const auto all = images(*point.problem, point.x.head(n));
+    return std::any_of(all.begin(), all.end(), [&](const Vector& u) {
+      SpecialPoint image = point;
+      image.x.head(n) = u;
+      return tracer.passes(curve, image);
+    });
   }
 
   // Of motions with the same symmetry and period.
@@ -245,7 +280,7 @@ class Curves {
       if (earlier.kind != start.kind || !is_alike(earlier, *start.problem)) return false;
       const auto& points = earlier.curve.points;
       const auto passes = [&](const SpecialCurve::At& at) {
-        return tracer.passes(curve, tracer.point_of(at));
+        return passes_an_image(tracer, curve, tracer.point_of(at));
       };
       return !points.empty() && passes(points.front()) && passes(points[points.size() / 2]) &&
              passes(points.back());
@@ -342,6 +377,7 @@ class Curves {
   const double least_;  // share of the highest point of a response, of those that start a curve
   const std::optional<BranchLimits> all_;  // of all branches, where these are looked at
   int most_seen_ = 0;                      // branches at one value
+  LookedAt seen_;                          // at all values
   std::vector<std::string> untraced_;
   bool stopped_ = false;  // by the user
   double failed_at_ = 0;

@@ -198,6 +198,13 @@ struct SolverSummary {
   double seconds = 0;
 };
 
+/// Of responses that were searched in vain: what the harmonics that were left out may have hidden.
+struct LookedAt {
+  double amplitude = 0;  // the largest, m
+  double estimate = 0;   // the largest effect of these harmonics on an amplitude, m
+  bool flagged = false;  // the estimate may be far too low
+};
+
 /// A branch of responses: over the excitation frequency, or over a parameter at a fixed frequency, or a curve
 /// of resonance peaks or folds over a parameter.
 struct ResponseBranch {
@@ -222,8 +229,9 @@ struct ResponseBranch {
   std::string doubt;                   // why the accuracy of a complete branch is doubtful; empty: it is not
   std::string no_peak{};               // where a complete frequency response has none: where resonances lie
   std::string unknown_stability{};     // why its points have no stability, where it is requested
+  std::optional<LookedAt> found_none{};  // in place of points, where a search has come to its end
   std::vector<std::string>
-      untraced{};  // branches that leave it and were not followed, and why, where all are requested
+      untraced{};  // branches that leave it, or the responses looked at, and were not followed, and why
   SolverSummary solver;
 };
 

@@ -49,6 +49,8 @@ bool mirrors(const hbm::HbmProblem& problem) {
          std::all_of(all.begin(), all.end(), [](const auto& each) { return each.harmonic % 2 == 1; });
 }
 
+}  // namespace
+
 std::vector<Vector> images(const hbm::HbmProblem& problem, const Vector& u) {
   const double half = std::numbers::pi / problem.harmonics().period;  // of a period of the excitation
   std::vector<Vector> all;
@@ -56,8 +58,6 @@ std::vector<Vector> images(const hbm::HbmProblem& problem, const Vector& u) {
     if (k % 2 == 0 || mirrors(problem)) all.push_back(shifted(problem, u, k * half, k % 2 == 0 ? 1 : -1));
   return all;
 }
-
-}  // namespace
 
 std::size_t index_of(const hbm::HbmProblem& problem, const Vector& u, const std::vector<Vector>& all) {
   const std::vector<Vector> same = images(problem, u);

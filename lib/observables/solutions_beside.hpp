@@ -16,8 +16,11 @@ namespace arcslip::observables {
 inline constexpr const char* stopped_in_search =
     "stopped by the caller, while responses beside those traced were looked for";
 
-/// The one of `all` that is u or an image of it: later by periods of the excitation, where the motion takes
-/// several to repeat, or mirrored where the equations have this symmetry. all.size(): none is.
+/// A solution u and its images, which are solutions as well: later by periods of the excitation, where the
+/// motion takes several to repeat, or mirrored where the equations have this symmetry.
+std::vector<continuation::Vector> images(const hbm::HbmProblem& problem, const continuation::Vector& u);
+
+/// The one of `all` that is u or an image of it. all.size(): none is.
 std::size_t index_of(const hbm::HbmProblem& problem, const continuation::Vector& u,
                      const std::vector<continuation::Vector>& all);
 

@@ -19,6 +19,18 @@ using continuation::Accepted;
 using continuation::StopReason;
 using continuation::Vector;
 
+void add(const ResponsePoint& point, LookedAt& to) {
+  if (point.unbounded) return;
+  to.amplitude = std::max(to.amplitude, point.amplitude);
+  to.estimate = std::fmax(to.estimate, std::abs(point.truncation_estimate));
+  to.flagged = to.flagged || point.truncation_flagged;
+}
+
+bool others_leave_at(const std::string& kind) {
+  return kind == event_kinds::symmetry_breaking || kind == event_kinds::period_doubling ||
+         kind == event_kinds::branch_point;
+}
+
 // From a place to the next pole, or to the end of the window. Returns where the branch goes on beyond that
 // pole, or the end of the window that it reached.
 BeyondPole add_points(const std::shared_ptr<const model::Model>& model, double over, const BeyondPole& place,
@@ -31,8 +43,11 @@ BeyondPole add_points(const std::shared_ptr<const model::Model>& model, double o
   }
   const std::size_t before = found.points.size();
   PoleWatch watch(window.lower, window.upper);
+  const bool stability = std::any_of(kinds.begin(), kinds.end(), is_bifurcation);
   const auto record = [&](Observer& observer, const Accepted& now, const continuation::Event* event) {
     if (event) {
+      if (stability && others_leave_at(event->monitor))
+        found.leaving.push_back({event->monitor, event->point.parameter});
       if (std::find(kinds.begin(), kinds.end(), event->monitor) == kinds.end()) return true;
       const ResponsePoint point = observer.observe(now);
       if (event->monitor == event_kinds::peak && is_rounding(point)) return true;
@@ -41,12 +56,13 @@ BeyondPole add_points(const std::shared_ptr<const model::Model>& model, double o
       found.points.push_back({{}, over, std::move(x), event->nonsmooth, event->monitor, point.amplitude});
       return true;
     }
+    if (stability) add(observer.observe(now), found.looked_at);
     return !watch.is_next_to_pole(observer.problem(), now.p, now.u);
   };
-  const bool stability = std::any_of(kinds.begin(), kinds.end(), is_bifurcation);
   const bool phase = std::find(kinds.begin(), kinds.end(), event_kinds::phase_resonance) != kinds.end();
   const auto swept = frequency_branch(model, window, from, record, direction, Steps::curve, go_on,
-                                      {.stability = stability, .phase = phase}, place.displacement);
+                                      {.stability = stability, .phase = phase, .branch_points = stability},
+                                      place.displacement);
   if (swept.branch.stop.reason == StopReason::start_failed && place.starts.size() > 1) {
     const BeyondPole farther{{place.starts.begin() + 1, place.starts.end()}, place.displacement};
     return add_points(model, over, farther, direction, window, kinds, go_on, found);
@@ -93,6 +109,8 @@ SpecialPoints special_points_of_all(const OverParameter& way, double over, const
   found.branches = static_cast<int>(all.size());
   for (const TracedBranch& branch : all) {
     const ResponseBranch& response = branch.response;
+    for (const ResponsePoint& point : response.points) add(point, found.looked_at);
+    for (const ResponseEvent& event : response.events) add(event.point, found.looked_at);
     for (const ResponseEvent& event : response.events) {
       if (std::find(kinds.begin(), kinds.end(), event.kind) == kinds.end()) continue;
       const auto n = static_cast<Eigen::Index>(event.point.unknowns.size());

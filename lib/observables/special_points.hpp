@@ -6,6 +6,7 @@
 #include <arcslip/observables/all_branches.hpp>
 #include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/over_parameter.hpp>
+#include <arcslip/observables/response.hpp>
 #include <arcslip/results/progress.hpp>
 
 #include <memory>
@@ -23,18 +24,26 @@ struct SpecialPoint {
   double amplitude = 0;
 };
 
+/// Where another branch leaves the one that is looked at.
+struct LeavingBranch {
+  std::string kind;  // of event_kinds
+  double omega = 0;  // rad/s
+};
+
 struct SpecialPoints {
   std::vector<SpecialPoint> points;
-  std::string unbounded;                // why a resonance is unbounded, and so has no peak
-  std::string failure;                  // why a branch does not cover the window: points may be missing
-  std::string unknown_stability{};      // why multipliers are not known
-  int branches = 1;                     // that were looked at
-  std::vector<std::string> untraced{};  // of all branches: those that were not followed, and why
+  std::string unbounded;                 // why a resonance is unbounded, and so has no peak
+  std::string failure;                   // why a branch does not cover the window: points may be missing
+  std::string unknown_stability{};       // why multipliers are not known
+  int branches = 1;                      // that were looked at
+  std::vector<std::string> untraced{};   // of all branches: those that were not followed, and why
+  std::vector<LeavingBranch> leaving{};  // of one branch, where bifurcations are looked for: the others
+  LookedAt looked_at{};                  // where bifurcations are looked for: the responses
 };
 
 /// The special points in a frequency window at the value `over` of the parameter, on the branch from its
-/// lower end on. kinds: of events, event_kinds::peak, fold, or of_curves, for which multipliers are computed.
-/// If go_on returns false, the points found so far.
+/// lower end on. kinds: of events, event_kinds::peak, fold, or of_curves, for which multipliers are computed
+/// and the branches that leave it are told. If go_on returns false, the points found so far.
 SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
                              const std::vector<std::string>& kinds, const GoOn& go_on = {});
 

@@ -56,6 +56,12 @@ void add(const observables::ResponsePoint& point, Truncation& to) {
   to.flagged = to.flagged || point.truncation_flagged;
 }
 
+void add(const observables::LookedAt& responses, Truncation& to) {
+  to.amplitude = std::max(to.amplitude, responses.amplitude);
+  to.estimate = std::fmax(to.estimate, responses.estimate);
+  to.flagged = to.flagged || responses.flagged;
+}
+
 void add(observables::Status status, const observables::Stop& stop, Truncation& to) {
   to.failed = to.failed || status == observables::Status::failed;
   to.ended = to.ended || stop.reason == observables::reasons::user;
@@ -64,7 +70,10 @@ void add(observables::Status status, const observables::Stop& stop, Truncation& 
 Truncation truncation_of(std::span<const observables::ResponseBranch> branches, bool estimated) {
   Truncation found;
   for (const observables::ResponseBranch& branch : branches) {
-    add(branch.status, branch.stop, found);
+    if (branch.found_none)
+      add(*branch.found_none, found);
+    else
+      add(branch.status, branch.stop, found);
     for (const observables::ResponsePoint& point : branch.points) add(point, found);
     for (const observables::ResponseEvent& event : branch.events) add(event.point, found);
   }
@@ -185,7 +194,7 @@ void OrderSelection::tell(results::End& end) const {
                           std::to_string(last_.responses) + with);
   if (is_reached())
     append(end.remark, "accuracy " + to_two_digits(error_) + with);
-  else if (!ended_ && end.status == results::Status::complete)
+  else if (!ended_ && (end.status == results::Status::complete || !last_.failed))
     append(end.doubt,
            "the accuracy " + results::shortest(wanted_) + " is not reached: " +
                (std::isfinite(told_error()) ? to_two_digits(told_error()) : "the error is not known") + with +

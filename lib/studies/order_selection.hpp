@@ -48,8 +48,9 @@ struct Truncation {
 /// Of all branches of one combination. estimated: their points have estimates.
 Truncation truncation_of(std::span<const observables::ResponseBranch> branches, bool estimated = true);
 
-/// Of a response, and of how a computation ended.
+/// Of a response, of those that were searched in vain, and of how a computation ended.
 void add(const observables::ResponsePoint& point, Truncation& to);
+void add(const observables::LookedAt& responses, Truncation& to);
 void add(observables::Status status, const observables::Stop& stop, Truncation& to);
 
 /// In place of the accuracy, an order for responses at which computations in time begin.

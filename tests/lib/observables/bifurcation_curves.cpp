@@ -435,17 +435,26 @@ TEST_CASE("curves whose multipliers are not known, or which are not there, say s
   REQUIRE(none.size() == 1);
   CHECK(none[0].stop.message ==
         "no Neimark-Sacker point was found at f.cosine = 0.01, nor up to 0.02, between 0.9 rad/s and 1.1 "
-        "rad/s: the branch that begins at 0.9 rad/s was looked at, for 9 values of f.cosine, and none that "
-        "leaves it (\"branches\": \"all\")");
+        "rad/s: the branch that begins at 0.9 rad/s was looked at, for 9 values of f.cosine, and no other "
+        "(\"branches\": \"all\")");
+  CHECK(none[0].untraced.empty());
 }
 
-TEST_CASE("motions that leave antisymmetric ones at a break of symmetry double their period", "[numbers]") {
-  const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+namespace {
+
+scene::Scene hardening_duffing() {
+  return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
       "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
     "elements": [{"name": "nl", "type": "cubic_spring", "at": "x", "stiffness": 1}],
     "excitation": [{"name": "force", "at": "x", "cosine": 20}], "response": {"at": "x"},
     "harmonics": {"order": 21}})");
+}
+
+}  // namespace
+
+TEST_CASE("motions that leave antisymmetric ones at a break of symmetry double their period", "[numbers]") {
+  const scene::Scene s = hardening_duffing();
   observables::BifurcationRange range{BifurcationsOf::period_doubling, "force.cosine", 25, 25.05, 1.2, 1.7,
                                       observables::Branches::all};
   range.limits.doublings = 1;
@@ -470,11 +479,45 @@ TEST_CASE("motions that leave antisymmetric ones at a break of symmetry double t
   range.branches = observables::Branches::one;
   const auto none = curves(s, range);
   REQUIRE(none.size() == 1);
-  CHECK(none[0].stop.message.ends_with("and none that leaves it (\"branches\": \"all\")"));
+  CHECK(none[0].stop.message.ends_with("and no other (\"branches\": \"all\")"));
+  REQUIRE(none[0].untraced.size() == 1);
+  CHECK(none[0].untraced[0].starts_with(
+      "at force.cosine = 25, the branch that leaves at the break of symmetry at 1.2026"));
+  CHECK(none[0].untraced[0].ends_with(": only one branch was looked at (branches)"));
+  REQUIRE(none[0].found_none);
+  CHECK(none[0].found_none->amplitude > 4.5);
+  CHECK(none[0].found_none->estimate > 0);
+  range.of = BifurcationsOf::symmetry_breaking;
+  const auto breaks = curves(s, range);
+  REQUIRE(breaks.size() == 1);
+  CHECK(breaks[0].status == observables::Status::complete);
+  CHECK(breaks[0].untraced == none[0].untraced);
   const auto no_pair = curves(double_well(9), {BifurcationsOf::neimark_sacker, "f.cosine", 0.01, 0.02, 0.9,
                                                1.1, observables::Branches::all});
   REQUIRE(no_pair.size() == 1);
-  CHECK(no_pair[0].stop.message.find(": all branches were looked at, for ") != std::string::npos);
+  CHECK(no_pair[0].stop.message.find(": the branches from the ends of the window and those that leave them "
+                                     "were looked at, for 9 values of f.cosine, up to ") !=
+        std::string::npos);
+  CHECK(no_pair[0].stop.message.ends_with(" of them; others were not searched for (\"searches\")"));
+  observables::BifurcationRange searched{BifurcationsOf::neimark_sacker, "f.cosine", 0.01, 0.02, 0.9, 1.1,
+                                         observables::Branches::all};
+  searched.limits.searches = 2;
+  CHECK(curves(double_well(9), searched)[0].stop.message.ends_with(
+      " of them; others were searched for at 2 frequencies of each value"));
+}
+
+// The window has the lower break of symmetry at 27 N only: the branch is entered from there, and at 24 N from
+// the upper one, in a motion that is the mirror image of the other.
+TEST_CASE("mirror images double their period on the same curve") {
+  observables::BifurcationRange range{BifurcationsOf::period_doubling, "force.cosine", 24, 27, 1.2, 3,
+                                      observables::Branches::all};
+  range.limits.doublings = 0;
+  const auto found = curves(hardening_duffing(), range);
+  CHECK(found.size() == 2);
+  for (const double at_27 : {1.26092747, 1.70241092})
+    CHECK(std::count_if(found.begin(), found.end(), [&](const ResponseBranch& curve) {
+            return std::abs(curve.points.back().omega - at_27) < 1e-6;
+          }) == 1);
 }
 
 TEST_CASE("curves of bifurcations leave the window of frequencies, and stop for the user") {

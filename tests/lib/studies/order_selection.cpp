@@ -320,6 +320,31 @@ TEST_CASE("a failing study is tried with two orders") {
   CHECK(all["branches"][0]["accuracy"]["orders"].size() <= 2);
 }
 
+TEST_CASE("what was searched in vain with too few harmonics is searched again with more") {
+  observables::ResponseBranch none;
+  none.status = observables::Status::failed;
+  CHECK(studies::truncation_of({&none, 1}).failed);
+  none.found_none = {.amplitude = 2, .estimate = 0.1, .flagged = false};
+  const Truncation vain = studies::truncation_of({&none, 1});
+  CHECK(!vain.failed);
+  CHECK((vain.amplitude == 2 && vain.estimate == 0.1));
+
+  // With 9 harmonics the window has no break of symmetry, which is at 1.2027 rad/s. By shooting at 25 N:
+  // 1.23527688 and 1.65078397 rad/s.
+  const auto s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
+    "elements": [{"name": "nl", "type": "cubic_spring", "at": "x", "stiffness": 1}],
+    "excitation": [{"name": "force", "at": "x", "cosine": 25}], "response": {"at": "x"},
+    "harmonics": {"accuracy": 1e-4},
+    "studies": [{"kind": "bifurcations", "of": "period_doubling", "over": "force.cosine", "from": 25,
+      "to": 25.05, "frequency": [1.2, 1.7], "branches": "all", "doublings": 0}]})");
+  const Json found = results_json(s)["branches"];
+  REQUIRE(found.size() == 2);
+  CHECK(std::abs(found[0]["points"][0]["frequency"].get<double>() - 1.23527688) < 1e-6);
+  CHECK(std::abs(found[1]["points"][0]["frequency"].get<double>() - 1.65078397) < 1e-6);
+}
+
 TEST_CASE("every kind of study by harmonic balance takes an accuracy, and others have no order to choose") {
   const scene::Scene paper = accurate(scenes::paper(7, 3), 1e-4);
   const Json trace = results_json(with_study(
