@@ -180,6 +180,11 @@ KeysOf<OptimumSettings> keys() {
                            "population size of stochastic algorithms; 0: their default")));
   keys.add(of_search(whole("seed", &SearchSettings::seed, 0, largest_search,
                            "random seed of stochastic algorithms: the same seed gives the same run")));
+  keys.add(
+      of_search(whole("starts", &SearchSettings::starts, 1, largest_search,
+                      "with several parameters or constraints: how many designs local searches start from "
+                      "at most, the scene's own and the lowest of designs spread over the bounds; 1: only "
+                      "its own")));
   keys.add(of_problem(
       {{with_schema({"constraints", KeyType::other, "", "a list of objects", "[]", false,
                      "limits on observables of the peaks and on linear combinations of parameters"},

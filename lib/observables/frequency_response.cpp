@@ -219,7 +219,7 @@ class Sweep {
       if (branch.status == Status::stopped && branch.stop.reason == reasons::boundary) {
         branch.status = Status::complete;
         std::string& message = branch.stop.message;
-        message.erase(message.rfind(nothing_above));
+        if (message.ends_with(nothing_above)) message.erase(message.rfind(nothing_above));
         message += "; another branch reaches the upper end";
       }
   }

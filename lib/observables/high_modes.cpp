@@ -8,7 +8,9 @@
 #include <complex>
 #include <functional>
 #include <limits>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace arcslip::observables {
 namespace {
@@ -16,11 +18,12 @@ namespace {
 using continuation::Vector;
 using model::LinearKind;
 
-constexpr int most_dofs_for_modes = 200;  // of which all modes are computed
-constexpr double rigid_body = 1e-10;      // v^T K v over the terms that it is made of
-constexpr double at_node = 1e-9;          // r . v or f . v over the largest that it might be
-constexpr double rigid_link = 1e6;        // of the largest stiffness: a contact that gives no way at all
-constexpr double with_mass = 1e-12;       // of the largest 1/(omega^2 + shift): others are massless
+constexpr int most_dofs_for_modes = 200;    // of which all modes are computed
+constexpr double rigid_body = 1e-10;        // v^T K v over the terms that it is made of
+constexpr double equal_frequencies = 1e-6;  // relative: any combination of such modes is taken as one
+constexpr double at_node = 1e-9;            // r . v or f . v over the largest that it might be
+constexpr double rigid_link = 1e6;          // of the largest stiffness: a contact that gives no way at all
+constexpr double with_mass = 1e-12;         // of the largest 1/(omega^2 + shift): others are massless
 
 // The stiffness that an element has as a spring along its direction i, N/m.
 using Spring = std::function<double(std::size_t element, std::size_t i)>;
@@ -275,12 +278,61 @@ bool moves(const Vector& direction, const Vector& v) {
   return std::abs(direction.dot(v)) > at_node * direction.lpNorm<1>() * v.lpNorm<Eigen::Infinity>();
 }
 
-// Whether the lowest harmonic of the excitation does work in the motion v.
-bool drives(const model::Model& model, const Vector& p, const Vector& v) {
-  return std::any_of(model.excitation.begin(), model.excitation.end(), [&](const model::Excitation& each) {
-    return each.harmonic == model.force_harmonic && std::abs(each.amplitude(p)) > 0 &&
-           moves(model::shape(model, each, p), v);
-  });
+bool moves_any(const std::vector<Vector>& directions, const Vector& v) {
+  return std::any_of(directions.begin(), directions.end(),
+                     [&](const Vector& direction) { return moves(direction, v); });
+}
+
+// The forces of the lowest harmonic of the excitation, without their size.
+std::vector<Vector> lowest_forces(const model::Model& model, const Vector& p) {
+  std::vector<Vector> all;
+  for (const model::Excitation& each : model.excitation)
+    if (each.harmonic == model.force_harmonic && std::abs(each.amplitude(p)) > 0)
+      all.push_back(model::shape(model, each, p));
+  return all;
+}
+
+std::vector<Vector> places_of_response(const model::Model& model) {
+  std::vector<Vector> all{Vector(model.response)};
+  for (const model::Direction& other : model.others) all.emplace_back(other);
+  return all;
+}
+
+struct ShapeAtRest {
+  ModeAtRest mode;
+  Vector v;  // v^T M v = 1
+};
+
+// Modes of one frequency, of which any combination is a mode: a force drives the one sum (v_k . f) v_k, which
+// tells whether the response is at a node.
+void tell_driven(std::span<ShapeAtRest> equal, const std::vector<Vector>& forces,
+                 const std::vector<Vector>& places) {
+  bool driven = false, driven_responds = false, any_responds = false;
+  for (const Vector& force : forces) {
+    Vector motion = Vector::Zero(force.size());
+    for (const ShapeAtRest& each : equal)
+      if (moves(force, each.v)) motion += force.dot(each.v) * each.v;
+    if (motion.isZero(0)) continue;
+    driven = true;
+    driven_responds = driven_responds || moves_any(places, motion);
+  }
+  for (const ShapeAtRest& each : equal) any_responds = any_responds || moves_any(places, each.v);
+  for (ShapeAtRest& each : equal) {
+    each.mode.driven = driven;
+    each.mode.responds = driven ? driven_responds : any_responds;
+  }
+}
+
+// Of shapes in increasing order of their frequencies.
+void tell_driven_by_frequency(std::vector<ShapeAtRest>& all, const std::vector<Vector>& forces,
+                              const std::vector<Vector>& places) {
+  for (auto first = all.begin(); first != all.end();) {
+    const auto next = std::find_if(first, all.end(), [&](const ShapeAtRest& each) {
+      return each.mode.omega > (1 + equal_frequencies) * first->mode.omega;
+    });
+    tell_driven({first, next}, forces, places);
+    first = next;
+  }
 }
 
 }  // namespace
@@ -301,22 +353,19 @@ std::optional<std::vector<ModeAtRest>> modes_at_rest(const model::Model& model, 
   Eigen::MatrixXd K = sum(LinearKind::spring);
   if (!add_tangents(model, p, contacts, rigid_link * K.cwiseAbs().maxCoeff(), diameter, K)) return {};
   const ModesWithMass modes = modes_with_mass(M, K);
-  std::vector<ModeAtRest> all;
+  std::vector<ShapeAtRest> all;
   for (Eigen::Index k = 0; k < modes.squares.size(); k += in_waves ? 2 : 1) {  // in waves all are double
     const Vector v = modes.V.col(k);
     const double stiffness = v.dot(K * v);
     if (!(stiffness > rigid_body * v.cwiseAbs().dot(K.cwiseAbs() * v.cwiseAbs()))) continue;
-    ModeAtRest mode{std::sqrt(stiffness / v.dot(M * v))};
-    if (!in_waves) {
-      mode.responds = moves(model.response, v) ||
-                      std::any_of(model.others.begin(), model.others.end(),
-                                  [&](const model::Direction& other) { return moves(Vector(other), v); });
-      mode.driven = drives(model, p, v);
-    }
-    all.push_back(mode);
+    const double mass = v.dot(M * v);
+    all.push_back({{std::sqrt(stiffness / mass)}, v / std::sqrt(mass)});
   }
-  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.omega < b.omega; });
-  return all;
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.mode.omega < b.mode.omega; });
+  if (!in_waves) tell_driven_by_frequency(all, lowest_forces(model, p), places_of_response(model));
+  std::vector<ModeAtRest> told;
+  for (const ShapeAtRest& each : all) told.push_back(each.mode);
+  return told;
 }
 
 }  // namespace arcslip::observables

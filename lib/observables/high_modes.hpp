@@ -41,7 +41,7 @@ bool is_contact(const elements::Law& law);
 /// A natural mode of the structure at rest, without damping.
 struct ModeAtRest {
   double omega;          // rad/s
-  bool responds = true;  // the response moves in it
+  bool responds = true;  // the response moves in it; of equal frequencies (1e-6), in what is driven
   bool driven = true;    // the lowest harmonic of the excitation drives it
 };
 

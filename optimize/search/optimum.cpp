@@ -64,6 +64,7 @@ Optimum Search::run() {
     }
   }
   describe();
+  count_starts();
   if (result_.status == Status::complete && !is_part_) check_window();
   if (result_.status != Status::complete && !result_.design.empty() && std::isfinite(result_.amplitude)) {
     result_.stop.message +=
@@ -264,7 +265,8 @@ void Search::check_window() {
                             observables::frequency_text(value->omega, scene_.frequency_unit);
   try {
     const BeyondEnd beyond = look_beyond(designs_, *value, scene_.frequency_unit);
-    if (!beyond.resonance || result_.stop.reason == reasons::flat) return note(where + beyond.text);
+    if (!beyond.resonance) return note(where + beyond.text);
+    if (result_.stop.reason == reasons::flat) note(result_.stop.message);
     result_.status = Status::stopped;
     result_.stop.reason = reasons::end_of_window;
     result_.stop.message = where + ", where it is no resonance peak" + beyond.text;

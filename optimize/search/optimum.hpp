@@ -64,6 +64,8 @@ struct OptimumProgress {
   const char* phase = "";          // "the search", "the certificate"
 };
 
+inline constexpr int default_starts = 9;
+
 struct OptimumOptions {
   std::string algorithm{};  // NLopt name; empty: default_algorithm
   Tolerances tolerances{.x_relative = 0,
@@ -79,9 +81,10 @@ struct OptimumOptions {
   int threads = 1;  // load cases evaluated at the same time, with the results of one; go_on is then called by
                     // several threads, one at a time
   bool certificate = true;
-  bool elsewhere = true;  // with limits: further searches from the lowest of designs sampled over the bounds,
-                          // by the algorithm and LN_COBYLA, and by LN_COBYLA and LD_MMA from the start, each
-                          // with as many evaluations
+  /// With several parameters or with limits: how many designs local searches start from at most, the scene's
+  /// own and the lowest of designs sampled over the bounds, each with as many evaluations. 1: only its own.
+  /// With limits also by LN_COBYLA from those, and by LN_COBYLA and LD_MMA from the scene's own.
+  int starts = default_starts;
   std::function<bool(const OptimumProgress&)> progress{};  // called after each evaluation and at the start of
                                                            // each phase; false stops
   /// Called in every phase at each step of each response; false stops with reason user, as soon as the
@@ -107,6 +110,17 @@ struct LoadCaseResult {
   double multiplier = 0;  // Lagrange multiplier at the optimum; all add up to 1
 };
 
+/// Where the local searches of one optimum led. A search that comes near a minimum found before it is ended,
+/// and counts as one that led there.
+struct Starts {
+  int count = 1;       // of local searches
+  int to_optimum = 1;  // led to as low an amplitude as the optimum's, within same_minimum
+  int to_none = 0;     // ended at no minimum, as at a limit of evaluations
+  double highest = 0;  // m, the highest minimum that one of them led to
+};
+
+inline constexpr double same_minimum = 1e-6;  // of amplitudes, relative
+
 struct Optimum {
   observables::Status status = observables::Status::failed;
   /// Stop::reason: of reasons::of_optima; scatter_limit: after OptimumOptions::scatter_rounds;
@@ -120,8 +134,9 @@ struct Optimum {
   observables::ResponsePoint point;  // at the highest peak of the case of highest w_c A_c
   bool feasible = false;             // all limits hold at `design`
   std::string algorithm;
-  bool epigraph = false;   // epigraph form: several peaks, each a constraint
-  int scatter_rounds = 0;  // searches for the worst case of the scatter
+  bool epigraph = false;         // epigraph form: several peaks, each a constraint
+  int scatter_rounds = 0;        // searches for the worst case of the scatter
+  std::optional<Starts> starts;  // of a search from several designs
   std::vector<Evaluation> evaluations;
   PeakWork work;                   // of all cases
   double seconds = 0;              // of the search and its certificate

@@ -67,8 +67,8 @@ class Search {
   std::string jump(const Balance& left);
   // Other starts, once, if the search reached no feasible design.
   bool find_feasible();
-  // With limits there are often several local minima: further searches from the lowest of sampled designs,
-  // also by LN_COBYLA, and by other algorithms from the start.
+  // Over several parameters or with limits there may be several local minima: further searches from the
+  // lowest of sampled designs, with limits also by LN_COBYLA, and by other algorithms from the start.
   bool look_elsewhere();
   struct Beginning {
     std::vector<double> design;
@@ -76,6 +76,12 @@ class Search {
   };
   std::vector<Beginning> beginnings(bool from_minimum);
   Optimum search_from(const Beginning& beginning);
+  bool has_several_starts() const;
+  // The known minimum that a search next to it leads to, with a margin; none: it may lead to another one.
+  std::optional<Evaluation> known_minimum(std::span<const double> design, double value) const;
+  // Adds where a search led, and ends the account with the optimum of the whole search.
+  void count_start(const Optimum& found);
+  void count_starts();
   // A lower design found while computing a tolerance range.
   bool passed_lower();
   void go_from(const std::vector<double>& design);
@@ -119,6 +125,9 @@ class Search {
   };
   std::optional<Minimum> minimum_left_{};  // the minimum from which further searches led elsewhere
   PeakWork work_elsewhere_{};
+  std::vector<Evaluation> minima_{};        // where the searches from several designs led, in their order
+  int to_no_minimum_ = 0;                   // of them
+  std::optional<Evaluation> ended_near_{};  // the one of them next to which the current search was ended
   bool ended_ = false;
   bool is_part_ = false;  // of another search, which checks the window itself
 };

@@ -24,9 +24,10 @@ constexpr double step_beyond = 1e-4, jumps = 1e-2;  // of y; of V, relative
 constexpr double limit_jumps = 2e-3;                // of a limit, relative
 constexpr double limit_bends = 1e-6;                // the same: far above what curvature makes of it so near
 constexpr double active_case = 1e-6;                // relative: as high as the highest case
-constexpr std::size_t most_starts = 8;              // elsewhere
-constexpr std::size_t most_by_cobyla = 5;           // of them, the lowest
-constexpr double apart = 0.1;             // of the range of a variable: designs that are worth two searches
+constexpr std::size_t most_by_cobyla = 5;           // starts elsewhere, the lowest
+constexpr double next_to = 1e-2;     // of the range of each variable: a search so near a known minimum ...
+constexpr double next_above = 1e-3;  // ... and so little above it, relative, leads to it
+constexpr double apart = 0.1;        // of the range of a variable: designs that are worth two searches
 constexpr double same_idle_level = 1e-9;  // of amplitudes, relative: both are where nothing slips at the peak
 
 // Algorithms that continue where another one ended at no minimum. CCSAQ descends from the feasible side by
@@ -144,10 +145,11 @@ std::vector<Search::Beginning> Search::beginnings(bool from_minimum) {
     const auto designs = lowest_elsewhere();
     for (const auto& design : designs) all.push_back({design, asked_.name});
     // Its first steps are long: it leaves a basin, and the plateau where a damper sticks, for a lower one.
-    if (asked_.name != "LN_COBYLA")
+    if (limited_ && asked_.name != "LN_COBYLA")
       for (std::size_t i = 0; i < std::min(most_by_cobyla, designs.size()); ++i)
         all.push_back({designs[i], "LN_COBYLA"});
   }
+  if (!limited_) return all;
   std::vector<std::string> ignored;
   for (const char* other : {"LN_COBYLA", "LD_MMA"}) all.push_back({space().start(ignored), other});
   return all;
@@ -161,7 +163,9 @@ Optimum Search::search_from(const Beginning& beginning) {
   OptimumOptions options = options_;
   options.algorithm = beginning.algorithm;
   options.seconds = 0;
-  options.certificate = options.elsewhere = false;
+  options.certificate = false;
+  options.starts = 1;
+  ended_near_.reset();
   std::exception_ptr thrown;
   options.progress = [&](OptimumProgress now) {
     now.evaluations += static_cast<int>(count() + designs_.elsewhere().size());
@@ -173,7 +177,8 @@ Optimum Search::search_from(const Beginning& beginning) {
       thrown = std::current_exception();
       watch_.stop();
     }
-    return !watch_.stopped();
+    if (!limited_) ended_near_ = known_minimum(now.design, now.amplitude);
+    return !watch_.stopped() && !ended_near_;
   };
   options.go_on = [this] { return watch_.go_on(); };
   Search part(there, problem_, options);
@@ -185,13 +190,49 @@ Optimum Search::search_from(const Beginning& beginning) {
   return found;
 }
 
+bool Search::has_several_starts() const {
+  return (limited_ || problem_.over.size() > 1) && options_.starts > 1 && !asked_.global;
+}
+
+std::optional<Evaluation> Search::known_minimum(std::span<const double> design, double value) const {
+  const auto leads_to = [&](const Evaluation& minimum) {
+    return std::abs(value / minimum.amplitude - 1) < next_above &&
+           space().distance(design, minimum.design) < next_to;
+  };
+  const auto found = std::find_if(minima_.begin(), minima_.end(), leads_to);
+  if (found == minima_.end()) return {};
+  return *found;
+}
+
+void Search::count_start(const Optimum& found) {
+  if (ended_near_)
+    minima_.push_back(*ended_near_);
+  else if (found.status == Status::complete && found.feasible && !found.design.empty())
+    minima_.push_back({found.design, found.amplitude});
+  else
+    ++to_no_minimum_;
+}
+
+void Search::count_starts() {
+  if (minima_.empty() || !result_.feasible) return;
+  Starts starts{.count = static_cast<int>(minima_.size()) + to_no_minimum_,
+                .to_optimum = 0,
+                .to_none = to_no_minimum_,
+                .highest = result_.amplitude};
+  for (const Evaluation& each : minima_) {
+    starts.to_optimum += each.amplitude <= (1 + same_minimum) * result_.amplitude;
+    starts.highest = std::max(starts.highest, each.amplitude);
+  }
+  result_.starts = starts;
+}
+
 bool Search::look_elsewhere() {
-  if (!limited_ || !options_.elsewhere || asked_.global || std::exchange(sought_elsewhere_, true))
-    return false;
+  if (!has_several_starts() || std::exchange(sought_elsewhere_, true)) return false;
   designs_.begin("the search elsewhere");
   const std::vector<double> here = best().design;
   const bool within = best().excess == 0;
   double least = within ? (1 - gain) * best().value : HUGE_VAL;
+  if (within) minima_.push_back({here, best().value});
   const std::vector<Beginning> all = beginnings(within);
   std::vector<double> lower;
   if (within && best().value < least) {
@@ -201,6 +242,7 @@ bool Search::look_elsewhere() {
   for (const Beginning& each : all) {
     if (interrupted()) break;
     const Optimum found = search_from(each);
+    if (!watch_.stopped()) count_start(found);
     if (!found.feasible || found.design.empty() || !(found.amplitude < least)) continue;
     least = found.amplitude;
     lower = found.design;
@@ -238,7 +280,7 @@ std::vector<std::vector<double>> Search::lowest_elsewhere() {
       return space().distance(each.design, other.design) < apart ||
              std::abs(each.amplitude / other.amplitude - 1) < same_idle_level;
     });
-    if (!near && chosen.size() <= most_starts) chosen.push_back(each);
+    if (!near && static_cast<int>(chosen.size()) < options_.starts) chosen.push_back(each);
   }
   std::vector<std::vector<double>> designs;
   for (std::size_t i = 1; i < chosen.size(); ++i) designs.push_back(chosen[i].design);

@@ -204,6 +204,11 @@ Object facts(const scene::Scene& scene, const OptimumResult& result) {
                          {"factorizations", found.work.factorizations},
                          {"seconds", found.seconds, "s"},
                          {"notes", texts(found.notes)}});
+  if (found.starts)
+    all.push_back({"starts", Object{{"count", found.starts->count},
+                                    {"to_optimum", found.starts->to_optimum},
+                                    {"to_none", found.starts->to_none},
+                                    {"highest", found.starts->highest, "m"}}});
   if (found.certificate)
     all.push_back(
         {"certificate", certificate(scene, result.problem, *found.certificate, result.has_cases())});

@@ -198,6 +198,7 @@ OptimumOptions options_of(const SearchSettings& search) {
   options.seconds = search.seconds;
   if (!search.local.empty()) options.local = LocalOptions{search.local, options.tolerances};
   options.population = search.population;
+  options.starts = search.starts;
   options.seed = static_cast<unsigned long>(search.seed);
   return options;
 }

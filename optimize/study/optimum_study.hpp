@@ -17,12 +17,13 @@ namespace arcslip::optimize {
 
 /// Settings of the search. Algorithms have their NLopt names.
 struct SearchSettings {
-  std::string algorithm{};  // empty: default_algorithm
-  std::string local{};      // local algorithm of AUGLAG and MLSL; empty: none
-  int evaluations = 1000;   // maximum number of design evaluations
-  double seconds = 0;       // 0: no limit
-  int population = 0;       // of stochastic algorithms; 0: their default
-  int seed = 1;             // of stochastic algorithms: the same seed gives the same run
+  std::string algorithm{};      // empty: default_algorithm
+  std::string local{};          // local algorithm of AUGLAG and MLSL; empty: none
+  int evaluations = 1000;       // maximum number of design evaluations
+  double seconds = 0;           // 0: no limit
+  int population = 0;           // of stochastic algorithms; 0: their default
+  int seed = 1;                 // of stochastic algorithms: the same seed gives the same run
+  int starts = default_starts;  // of local searches with several parameters or limits
   friend bool operator==(const SearchSettings&, const SearchSettings&) = default;
 };
 

@@ -190,6 +190,16 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const Optim
   if (!certificate.others_lower) out << "  it is higher than the highest peak of the branch\n";
 }
 
+void write_starts(std::ostream& out, const Optimum& found) {
+  const Starts& starts = *found.starts;
+  out << "  " << starts.to_optimum << " of " << starts.count << " starts led to it, within "
+      << number(same_minimum) << " of the amplitude";
+  if (starts.to_optimum + starts.to_none < starts.count)
+    out << ", the others to minima of up to " << number(starts.highest, "%.4e") << " m";
+  if (starts.to_none > 0) out << "; " << starts.to_none << " ended at no minimum";
+  out << '\n';
+}
+
 }  // namespace
 
 std::string text_of(const scene::Scene& scene, const OptimumResult& result) {
@@ -219,6 +229,7 @@ std::string text_of(const scene::Scene& scene, const OptimumResult& result) {
   out << "  " << found.algorithm << ", " << found.evaluations.size() << " evaluations, "
       << found.work.responses << " responses traced, " << number(found.seconds, "%.3f")
       << " s: " << result.stop.message << '\n';
+  if (found.starts) write_starts(out, found);
   if (found.certificate) write_certificate(out, scene, result);
   if (result.direct.found)
     out << "  the curve of peaks has its minimum at " << result.problem.over[0].name << " = "

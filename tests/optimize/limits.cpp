@@ -151,7 +151,7 @@ TEST_CASE("a limit on the frequency holds at the peak, not at an end of the wind
 TEST_CASE("a peak that comes up during a search, at which a limit is exceeded, is within no limit") {
   const auto search = random_limits::make(35);
   const auto found = optimize::optimum(search.scene, search.problem,
-                                       {.algorithm = "LD_MMA", .certificate = false, .elsewhere = false});
+                                       {.algorithm = "LD_MMA", .certificate = false, .starts = 1});
   CAPTURE(found.stop.message);
   REQUIRE(found.feasible);
   CHECK(random_limits::excess(search, found.design) <= 1e-6);
@@ -203,8 +203,7 @@ TEST_CASE("where an algorithm asks for a design that is no number, the search go
 
 TEST_CASE("an algorithm that gains nothing over many designs is ended, and others go on", "[numbers]") {
   const auto search = random_limits::make(257);  // SLSQP crawls along outside the limits
-  const auto found =
-      optimize::optimum(search.scene, search.problem, {.certificate = false, .elsewhere = false});
+  const auto found = optimize::optimum(search.scene, search.problem, {.certificate = false, .starts = 1});
   CAPTURE(found.stop.message);
   CHECK(found.stop.reason != optimize::reasons::evaluation_limit);
   CHECK(found.evaluations.size() < 1000);

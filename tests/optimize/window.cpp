@@ -64,6 +64,28 @@ TEST_CASE("a window that misses the resonance is no complete answer, and the win
         1e-9 * inside.amplitude);
 }
 
+// The slider holds the mass: 1 kg on 2 k, or sqrt(2) 10 Hz.
+TEST_CASE("loads without influence on the highest value are no complete answer in a window that misses") {
+  scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "Hz",
+    "structure": {"dofs": ["x"],
+      "masses": [{"name": "m", "at": "x", "value": 1}], "springs": [{"name": "k", "at": "x", "frequency": 10}],
+      "dampers": [{"name": "c", "at": "x", "value": 2}]},
+    "elements": [{"name": "s", "type": "jenkins", "at": "x", "stiffness": 3947.8417604357433,
+      "friction_coefficient": 1, "normal_load": 30}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 1}], "response": {"at": "x"}, "harmonics": {"order": 1}})");
+  const Optimum found = optimize::optimum(s, {{{"s.normal_load", 20, 50}}, 5, 9});
+  CAPTURE(found.stop.message);
+  CHECK(found.status == Status::stopped);
+  CHECK(found.stop.reason == optimize::reasons::end_of_window);
+  const double w = 9 * scenes::hertz;
+  CHECK(std::abs(found.amplitude * std::hypot(2 * natural * natural - w * w, 2 * w) - 1) < 1e-9);
+  CHECK(contains(found.stop.message, "largest at the upper end of the window, 9 Hz"));
+  CHECK(contains(found.stop.message, "this design has a peak of "));
+  CHECK(contains(found.stop.message, " at 14.1"));
+  REQUIRE(!found.notes.empty());
+  CHECK(contains(found.notes.back(), "the amplitude does not depend on s.normal_load within the bounds"));
+}
+
 TEST_CASE(
     "where the amplitude is largest at an end of the window and there is no resonance beyond, that is said") {
   // Above 1/sqrt(2) of critical damping there is no peak: the amplitude falls from rest on.

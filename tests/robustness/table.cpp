@@ -13,7 +13,9 @@
 #include "lib/observables/truncation.hpp"
 #include "lib/scene/bad_scenes.hpp"
 #include "lib/scene/mat_mutants.hpp"
+#include "lib/studies/mode_accuracy.hpp"
 #include "optimize/limited_searches.hpp"
+#include "optimize/random_optima.hpp"
 #include "optimize/tolerance_ranges.hpp"
 
 #include <arcslip/results/text.hpp>
@@ -261,6 +263,15 @@ Random cases, the same on every machine but for the moments of signals. The test
       "there, beside the closed form of the response",
       tolerance_ranges::absorbers, 1, "tolerance ranges of random absorbers",
       "500: all ends where the peak is 1 or 5 % up, to 1e-9");
+  row("random structures with friction: optima over one load or two, beside responses of their own, each end of "
+      "their tolerance ranges and three places on the way there",
+      random_optima::with_ranges, 1, "random optima have the amplitude", "@OPTIMA@");
+  row("optima of random structures in windows and bounds that may miss the resonances, beside a response over "
+      "a wide window",
+      random_optima::with_other_windows, 1, "random optima in windows", "@WINDOWS@");
+  row("conservative oscillators with a cubic spring and a stop, over four decades of amplitude: the frequency "
+      "of their modes beside the energy integral",
+      mode_accuracy::conservative, 1, "conservative modes over four decades", "@MODES@");
   row("frequencies from 1e-8 to 1e-2 beside a fold of a Duffing oscillator: how many responses are found, "
       "beside "
       "the cubic equation of one harmonic",

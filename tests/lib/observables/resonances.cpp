@@ -112,6 +112,31 @@ TEST_CASE("modes without a response or without an excitation are told") {
   for (const ModeAtRest& mode : modes(pair(), Contacts::free)) CHECK((mode.responds && mode.driven));
 }
 
+TEST_CASE(
+    "of modes of one frequency the motion that the excitation drives tells whether the response moves") {
+  // A mass that moves in two directions, with equal springs but for the factor of the second one.
+  const auto in_plane = [](const std::string& force, const std::string& response, const std::string& second) {
+    return modes(scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
+    "dofs": ["x", "y"], "masses": [{"name": "mx", "at": "x", "value": 2}, {"name": "my", "at": "y", "value": 2}],
+    "springs": [{"name": "kx", "at": "x", "value": 8}, {"name": "ky", "at": "y", "value": )" +
+                               second + R"(}]}, "excitation": [{"name": "f", "direction": )" + force +
+                               R"(, "cosine": 1}], "response": {"direction": )" + response + "}}"),
+                 Contacts::free);
+  };
+  const std::string x = R"({"x": 1})", y = R"({"y": 1})", skew = R"({"x": 3, "y": 4})",
+                    across = R"({"x": 4, "y": -3})";
+  for (const char* const second : {"8", "8.000008"}) {  // frequencies 5e-7 apart
+    for (const auto& along : {x, y, skew})
+      for (const ModeAtRest& mode : in_plane(along, along, second)) CHECK((mode.responds && mode.driven));
+    for (const ModeAtRest& mode : in_plane(skew, x, second)) CHECK((mode.responds && mode.driven));
+    for (const auto& [force, response] : {std::pair{x, y}, {skew, across}})
+      for (const ModeAtRest& mode : in_plane(force, response, second)) CHECK((!mode.responds && mode.driven));
+  }
+  const auto apart = in_plane(x, x, "8.0001");  // 6e-6 apart
+  CHECK((apart[0].responds && apart[0].driven));
+  CHECK((!apart[1].responds && !apart[1].driven));
+}
+
 TEST_CASE("a motion that no spring resists has no natural frequency") {
   const scene::Scene scene =
       scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {

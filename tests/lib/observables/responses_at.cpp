@@ -231,6 +231,11 @@ struct Duffing {
   }
 };
 
+Duffing any_duffing(test_random::Random& random) {
+  const double c = random.logarithmic(0.01, 0.2), b = random.logarithmic(1e-3, 10);
+  return {c, b, random.logarithmic(0.05, 1)};
+}
+
 scene::Scene scene_of(const Duffing& of) {
   scene::Scene s = duffing_scene(of.b, of.force);
   scene::set(s, "c.value", of.c);
@@ -257,8 +262,7 @@ TEST_CASE("beside a fold as many responses are found as the closed form has") {
   std::uint64_t tried = 0;
   for (std::uint64_t seed = 0; tried < count; ++seed) {
     test_random::Random random(seed);
-    const Duffing of{random.logarithmic(0.01, 0.2), random.logarithmic(1e-3, 10),
-                     random.logarithmic(0.05, 1)};
+    const Duffing of = any_duffing(random);
     for (const double fold : folds(of, 1.0, 6.0)) {
       const double beside = random.logarithmic(1e-8, 1e-2) * (random.one_in(2) ? 1 : -1),
                    w = fold * (1 + beside);
@@ -376,8 +380,7 @@ TEST_CASE("a frequency response has all responses at the ends of its window, als
   std::uint64_t tried = 0;
   for (std::uint64_t seed = 0; tried < count; ++seed) {
     test_random::Random random(seed);
-    const Duffing of{random.logarithmic(0.01, 0.2), random.logarithmic(1e-3, 10),
-                     random.logarithmic(0.05, 1)};
+    const Duffing of = any_duffing(random);
     const auto all = folds(of, 0.3, 6.0);
     if (all.size() != 2) continue;
     const double width = all[1] - all[0], inside = all[0] + width * random.between(0.05, 0.95);
@@ -394,12 +397,25 @@ TEST_CASE("a frequency response has all responses at the ends of its window, als
   }
 }
 
+// By integration in time.
+TEST_CASE("a window that begins within a hysteresis has both stable motions there") {
+  scene::Scene s = scene_of({.c = 0.1, .b = 1, .force = 0.5});
+  s.harmonics.order = 9;
+  const auto branches = observables::frequency_response(s, {.from = 1.6, .to = 4});
+  REQUIRE(branches.size() == 2);
+  CHECK(branches[0].points.front().amplitude == Approx(0.337518).epsilon(1e-5));
+  CHECK(branches[0].points.back().omega == 4);
+  CHECK(branches[1].points.front().omega == 1.6);
+  CHECK(branches[1].points.back().omega == 1.6);
+  CHECK(std::max(branches[1].points.front().amplitude, branches[1].points.back().amplitude) ==
+        Approx(1.591910).epsilon(1e-5));
+}
+
 TEST_CASE("a trace over the force has all responses at both ends of its range") {
   int tried = 0;
   for (std::uint64_t seed = 0; tried < 10; ++seed) {
     test_random::Random random(seed);
-    const Duffing of{random.logarithmic(0.01, 0.2), random.logarithmic(1e-3, 10),
-                     random.logarithmic(0.05, 1)};
+    const Duffing of = any_duffing(random);
     const auto all = folds(of, 0.3, 6.0);
     if (all.size() != 2) continue;
     const double inside = random.between(all[0], all[1]);

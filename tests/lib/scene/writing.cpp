@@ -99,7 +99,7 @@ TEST_CASE("a study of an optimum is written with its cases, scatter and along") 
         R"({"set": {}, "weight": 1e+300})",
         R"("response": {"direction": {"b.l/a~de": -1e-300, "blade 1": 2}}})",
         R"("scatter": {"n.stiffness": [-1, 1e+300], "d1.stiffness": [1, 2]})",
-        R"("along": "f.sine", "from": 1, "to": 8,)", R"("constraints": [], "criterion": "worst",)"}) {
+        R"("along": "f.sine", "from": 1, "to": 8,)", R"("starts": 9, "constraints": [],)"}) {
     CAPTURE(line);
     CHECK(text.find(line) != std::string::npos);
   }
