@@ -65,10 +65,11 @@ struct Oscillator {
       (middle - opposite(middle) < 2 * amplitude ? lower : upper) = middle;
     }
     const double right = (lower + upper) / 2, left = opposite(right);
-    const double split = d != 0 && corner < right ? corner : 0;
-    return std::numbers::pi / (time_between(left, split) + time_between(right, split));
+    return std::numbers::pi / (time_between(left, 0) + time_between(right, 0));
   }
 };
+
+constexpr double wanted = 1e-4;
 
 Json modes_of(const Oscillator& of, double from, double to) {
   std::ostringstream text;
@@ -80,7 +81,8 @@ Json modes_of(const Oscillator& of, double from, double to) {
        << of.b
        << R"(}, {"name": "d", "type": "bilinear_spring", "at": "x", "stiffness": 0, "stiffness_beyond": )"
        << of.d << R"(, "corner": )" << of.corner << R"(, "one_sided": true}],
-    "excitation": [{"name": "f", "at": "x", "cosine": 1}], "response": {"at": "x"}, "harmonics": {"accuracy": 1e-4},
+    "excitation": [{"name": "f", "at": "x", "cosine": 1}], "response": {"at": "x"}, "harmonics": {"accuracy": )"
+       << wanted << R"(},
     "studies": [{"kind": "modes", "mode": 1, "amplitude": [)"
        << from << ", " << to << "]}]}";
   std::ostringstream json;
@@ -112,10 +114,13 @@ TEST_CASE(
     CHECK(branch["status"] == "complete");
     const Json& error = branch["accuracy"]["error"];
     if (error.is_null()) continue;
+    const double told = error;
     for (const Json& point : branch["points"]) {
       const double amplitude = point["amplitude"], frequency = point["frequency"];
       CAPTURE(amplitude);
-      CHECK(std::abs(frequency / of.frequency(amplitude) - 1) < error.get<double>() + 1e-8);
+      const double away = std::abs(frequency / of.frequency(amplitude) - 1);
+      CHECK(away < 2 * told + 1e-8);  // at some amplitudes only is it looked at
+      if (told <= wanted) CHECK(away < wanted);
     }
   }
 }
