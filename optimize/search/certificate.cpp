@@ -1,6 +1,5 @@
 #include <arcslip/optimize/search/certificate.hpp>
 
-#include <arcslip/continuation/diagrams/deflation.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/optimize/search/design_estimate.hpp>
 #include <arcslip/optimize/search/design_space.hpp>
@@ -15,13 +14,11 @@ namespace arcslip::optimize {
 namespace {
 
 constexpr double same_amplitude = 1e-7;  // relative
-constexpr double same_response = 1e-6;   // relative
 constexpr int most_steps = 60;           // to an end of a tolerance range
 constexpr double range_accuracy = 1e-6;  // of the share
 constexpr int most_rounds_of_range = 4;  // each nearer to the optimum
 constexpr double seen_again = 1e-4;      // of the share: a level that a new response shows as well
 constexpr double narrow = 1e-9;  // relative: a bracket of the place where a limit is reached, or V jumps
-constexpr int deflation_iterations = 40;
 
 class Certifier {
  public:
@@ -236,50 +233,13 @@ class Certifier {
     result_.ranges.push_back(std::move(of));
   }
 
-  // Responses of a case on other branches: at the upper end of the window without initial guess, if the
-  // traced branch does not end there, and by deflation at the highest peak.
   void other_branches(std::size_t c) {
-    const PeakState& optimum = optimum_[c];
-    const PeakAmplitude& peaks = cases_.peaks(c);
-    const auto problem = peaks.problem();
-    Vector p = peaks.parameters(design_);
-    observables::Sensitivity sensitivity(problem);
-    Vector none(0);
     const double highest = levels_[cases_.group(c)] / cases_.weight(c);
-    const auto add = [&](const char* by, const Vector& u, double omega) {
-      Vector x(u.size() + 1);
-      x << u, omega;
-      if (!sensitivity.at_frequency(x, p, {}, none) && !std::isfinite(sensitivity.amplitude())) return;
-      result_.others.push_back({by, omega, sensitivity.amplitude(), c});
-      if (sensitivity.amplitude() > (1 + same_amplitude) * highest) result_.others_lower = false;
-    };
-    const auto model = peaks.model_at(design_);
-    const auto& window = peaks.window();
-    const auto end = observables::first_response(model, window.upper, window.upper - window.lower, go_on_);
-    const bool same = end.u && optimum.upper_end.size() == end.u->size() &&
-                      (*end.u - optimum.upper_end).norm() <= same_response * end.u->norm();
-    if (end.u && !same) {
-      double most = -1, omega = 0;
-      Vector u;
-      const auto record = [&](observables::Observer& observer, const continuation::Accepted& now,
-                              const continuation::Event*) {
-        const auto& at = static_cast<const hbm::HbmEvaluator&>(now.at);
-        const double here = observer.extreme(at, now.u).amplitude;
-        if (here > most) most = here, omega = now.parameter, u = now.u;
-        return true;
-      };
-      observables::frequency_branch(model, window, window.upper, record, -1, observables::Steps::curve,
-                                    go_on_);
-      if (most > 0) add("sweep downwards", u, omega);
+    for (OtherResponse& each : other_responses(cases_.peaks(c), design_, optimum_[c], go_on_)) {
+      each.in_case = c;
+      if (each.amplitude > (1 + same_amplitude) * highest) result_.others_lower = false;
+      result_.others.push_back(std::move(each));
     }
-    const Peak& peak = optimum.peaks[optimum.highest];
-    p[model::frequency] = peak.omega();
-    const Vector known = peak.x.head(problem->size());
-    continuation::DeflationOptions options;
-    options.iterations = deflation_iterations;
-    options.go_on = go_on_;
-    for (const Vector& u : continuation::deflate(*problem, p, {known}, {known}, options))
-      add("deflation", u, peak.omega());
   }
 
   LoadCases& cases_;

@@ -3,6 +3,7 @@
 // amplitude or the criterion over several cases (load_cases.hpp).
 
 #include <arcslip/optimize/search/load_cases.hpp>
+#include <arcslip/optimize/search/other_responses.hpp>
 
 #include <Eigen/Core>
 
@@ -28,13 +29,6 @@ struct CertifiedPeak {
   double omega = 0, amplitude = 0;  // rad/s, m
   bool active = false;              // as high as the highest, within 1e-6; mean: of its case
   double weight = 0;                // Lagrange multiplier; those of the active peaks add up to 1
-  std::size_t in_case = 0;          // of Optimum::cases
-};
-
-/// A response on a branch other than that of the peaks.
-struct OtherResponse {
-  std::string found_by;             // "sweep downwards", "deflation"
-  double omega = 0, amplitude = 0;  // rad/s, m
   std::size_t in_case = 0;          // of Optimum::cases
 };
 

@@ -102,6 +102,30 @@ TEST_CASE(
   }
 }
 
+// x is a Duffing oscillator of which 1.6 rad/s lies in the hysteresis: 0.337518 and 1.591910 m by integration
+// in time, and the upper branch has its peak of about 2.3178 m at 2.2119 rad/s. y has its resonance at 3
+// rad/s.
+TEST_CASE("a window that begins within a hysteresis: a higher branch than the one of the peaks is told") {
+  const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x", "y"],
+      "masses": [{"name": "mx", "at": "x", "value": 1}, {"name": "my", "at": "y", "value": 1}],
+      "springs": [{"name": "kx", "at": "x", "value": 1}, {"name": "ky", "at": "y", "value": 9}],
+      "dampers": [{"name": "cx", "at": "x", "value": 0.1}, {"name": "cy", "at": "y", "value": 0.08}]},
+    "elements": [{"name": "n", "type": "cubic_spring", "at": "x", "stiffness": 1}],
+    "excitation": [{"name": "fx", "at": "x", "cosine": 0.5}, {"name": "fy", "at": "y", "cosine": 0.3}],
+    "response": {"direction": {"x": 1, "y": 1}}, "harmonics": {"order": 9}})");
+  const Optimum found = optimize::optimum(s, {{{"cy.value", 0.05, 0.1}}, 1.6, 4});
+  CAPTURE(found.stop.message);
+  CHECK(found.status == Status::complete);
+  REQUIRE(found.certificate);
+  CHECK(!found.certificate->others_lower);
+  REQUIRE(!found.certificate->others.empty());
+  const auto& other = found.certificate->others[0];
+  CHECK(other.found_by == "search at the ends");
+  CHECK(std::abs(other.amplitude - 2.3178) < 0.3 / (9 - other.omega * other.omega));  // y there
+  CHECK(std::abs(other.omega / 2.2119 - 1) < 1e-2);
+}
+
 TEST_CASE("a case in which nothing moves is not said to lie at an end of the window") {
   optimize::OptimumProblem problem{{{"c.value", 1, 5}}, 5, 15};
   problem.cases = {{{{"f.cosine", 0}}, 1}, {{{"f.cosine", 1}}, 1}};
