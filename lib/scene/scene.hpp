@@ -58,6 +58,8 @@ struct Tie {
   friend bool operator==(const Tie&, const Tie&) = default;
 };
 
+/// Made in code: a fixed order of 7. A file without "harmonics" has an accuracy of 1e-4, with an order of up
+/// to 55, which functions that run no study take; set both where a scene comes from a file.
 struct Harmonics {
   int order = 7;   // highest harmonic N of the base frequency, 1 to 2000
   int period = 1;  // of the motion, in periods of the excitation; base frequency = its frequency/period

@@ -272,6 +272,9 @@ Random cases, the same on every machine but for the moments of signals. The test
   row("conservative oscillators with a cubic spring and a stop, over four decades of amplitude: the frequency "
       "of their modes beside the energy integral",
       mode_accuracy::conservative, 1, "conservative modes over four decades", "@MODES@");
+  row("damped oscillators with a slider and some with a cubic spring, over four decades of amplitude: frequency "
+      "and damping ratio of their modes beside shooting with Runge-Kutta steps",
+      mode_accuracy::damped, 1, "damped modes over four decades", "@DAMPED@");
   row("frequencies from 1e-8 to 1e-2 beside a fold of a Duffing oscillator: how many responses are found, "
       "beside "
       "the cubic equation of one harmonic",

@@ -6,5 +6,7 @@ namespace mode_accuracy {
 
 /// Random conservative oscillators over four decades of amplitude.
 inline constexpr Volume conservative{"ARCSLIP_CONSERVATIVE_MODES", 5, 50};
+/// With friction and damping.
+inline constexpr Volume damped{"ARCSLIP_DAMPED_MODES", 8, 300};
 
 }  // namespace mode_accuracy
