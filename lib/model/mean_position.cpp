@@ -84,7 +84,7 @@ Eigen::MatrixXd stiffness_at_rest(const Model& model, const continuation::Vector
 std::vector<Direction> closed_by_constant_force(const Model& model, const continuation::Vector& p) {
   const auto contacts = contacts_open_at_rest(model, p);
   const Eigen::VectorXd f = constant_force(model, p);
-  if (contacts.empty() || !(f.cwiseAbs().maxCoeff() > 0)) return {};
+  if (contacts.empty() || f.isZero(0)) return {};
   Eigen::MatrixXd K = stiffness_at_rest(model, p), resting = K;
   for (const OpeningContact& contact : contacts) add_outer(contact.stiffness, contact.normal, resting);
   K.diagonal() += soft * resting.cwiseAbs().rowwise().maxCoeff();

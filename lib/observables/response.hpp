@@ -200,9 +200,9 @@ struct SolverSummary {
 
 /// Of responses that were searched in vain: what the harmonics that were left out may have hidden.
 struct LookedAt {
-  double amplitude = 0;  // the largest, m
-  double estimate = 0;   // the largest effect of these harmonics on an amplitude, m
-  bool flagged = false;  // the estimate may be far too low
+  double amplitude = 0;        // the largest, m
+  double estimate = no_value;  // the largest effect of these harmonics on an amplitude, m
+  bool flagged = false;        // the estimate may be far too low
 };
 
 /// A branch of responses: over the excitation frequency, or over a parameter at a fixed frequency, or a curve

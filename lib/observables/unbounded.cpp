@@ -148,8 +148,8 @@ BeyondPole beyond_pole_at_start(double omega, double width) {
 
 // The last place before, at which |u| is at most half as large.
 const PoleWatch::Place* PoleWatch::half_as_large(const Place& of) const {
-  for (const Place* at = &of; at-- != course_.data();)
-    if (at->size <= of.size / 2) return at;
+  for (const Place* at = &of; at != course_.data();)
+    if ((--at)->size <= of.size / 2) return at;
   return nullptr;
 }
 
@@ -190,7 +190,9 @@ BeyondPole PoleWatch::beyond() const {
   const double distance = pole_ - last.omega, side = distance < 0 ? -1 : 1;
   BeyondPole there;
   there.starts.push_back(pole_ + side * std::max(std::abs(distance), least_beyond * pole_));
-  for (const double share : farther_beyond) there.starts.push_back(pole_ * (1 + side * share));
+  for (const double share : farther_beyond)
+    if (const double farther = pole_ * (1 + side * share); farther >= lower_ && farther <= upper_)
+      there.starts.push_back(farther);
   there.displacement = last.size * std::abs(distance) / pole_;
   return there;
 }

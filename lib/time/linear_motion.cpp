@@ -35,12 +35,19 @@ void require_mass(const EquationOfMotion& equation) {
   fail(i);
 }
 
+// values: none where a matrix overflowed.
+double largest_magnitude(const Vector& values) {
+  if (values.size() == 0)
+    throw SingularMass("a mass is so small that the stiffness or the damping over it overflows");
+  return values.cwiseAbs().maxCoeff();
+}
+
 // The norm of a symmetric A over M: its largest |eigenvalue|. Without symmetry an upper bound of the norm.
 double largest_over(const continuation::Cholesky& mass, const Matrix& A) {
-  if (A == A.transpose()) return continuation::symmetric_eigenvalues(mass.reduced(A)).cwiseAbs().maxCoeff();
+  if (A == A.transpose()) return largest_magnitude(continuation::symmetric_eigenvalues(mass.reduced(A)));
   const Matrix even = mass.reduced(0.5 * (A + A.transpose())), skew = mass.reduced(0.5 * (A - A.transpose()));
-  return continuation::symmetric_eigenvalues(even).cwiseAbs().maxCoeff() +
-         continuation::singular_values(skew).values[0];
+  return largest_magnitude(continuation::symmetric_eigenvalues(even)) +
+         largest_magnitude(continuation::singular_values(skew).values);
 }
 
 // A diagonal matrix above (sign 1) all stiffnesses of a part, or below (-1) them, and 0: by the sums of the

@@ -17,6 +17,7 @@ constexpr double same_amplitude = 1e-7;  // relative
 constexpr int most_steps = 60;           // to an end of a tolerance range
 constexpr double range_accuracy = 1e-6;  // of the share
 constexpr int most_rounds_of_range = 4;  // each nearer to the optimum
+constexpr int most_parts = 8;            // of the way to an end of a range
 constexpr double seen_again = 1e-4;      // of the share: a level that a new response shows as well
 constexpr double narrow = 1e-9;  // relative: a bracket of the place where a limit is reached, or V jumps
 
@@ -184,21 +185,50 @@ class Certifier {
     return inner;
   }
 
-  // The same by peaks that are tracked, and where new responses at the end or half way show that one was
-  // lost, by new responses alone, which are checked half way as well.
+  // On the way from the optimum to the end of a range: half way, and in a range over more than a factor of
+  // two in equal ratios as well, of about four.
+  static std::vector<double> places_between(double at, double end) {
+    std::vector<double> places{0.5 * (at + end)};
+    const double ratio = end / at;
+    if (std::isfinite(ratio) && ratio > 0 && std::abs(std::log(ratio)) > std::log(2)) {
+      const int parts =
+          std::clamp(static_cast<int>(std::abs(std::log(ratio)) / std::log(4)) + 2, 2, most_parts);
+      for (int i = 1; i < parts; ++i) places.push_back(at * std::pow(ratio, static_cast<double>(i) / parts));
+    }
+    std::sort(places.begin(), places.end(),
+              [&](double a, double b) { return std::abs(a - at) < std::abs(b - at); });
+    return places;
+  }
+
+  // The first of these places that is not within the range, by new responses, and what holds there. inner:
+  // the one before.
+  struct Gap {
+    double inner, place;
+    Seen seen;
+  };
+  std::optional<Gap> gap_on_the_way(const Way& way, double end) {
+    double inner = design_[way.k];
+    for (const double place : places_between(inner, end)) {
+      if (const Seen seen = see(way, place, true); !is_within(way, seen)) return Gap{inner, place, seen};
+      inner = place;
+    }
+    return {};
+  }
+
+  // The same by peaks that are tracked, and where new responses at the end or on the way show that one was
+  // lost, by new responses alone, which are checked on the way as well.
   double range_end(const Way& way, double guess, End& end) {
     const double at = design_[way.k];
     double found = search_end(way, guess, way.bound(), {}, false, end);
     for (int round = 0; round < most_rounds_of_range && (!go_on_ || go_on_()); ++round) {
-      const double middle = 0.5 * (at + found);
-      if (const Seen seen = see(way, middle, true); !is_within(way, seen)) {
-        found = search_end(way, 0.5 * (at + middle), middle, seen, true, end);
+      if (const auto gap = gap_on_the_way(way, found)) {
+        found = search_end(way, 0.5 * (gap->inner + gap->place), gap->place, gap->seen, true, end);
         continue;
       }
       if (round > 0) break;
       const Seen seen = see(way, found, true);
       if (!is_within(way, seen))
-        found = search_end(way, middle, found, seen, true, end);
+        found = search_end(way, 0.5 * (at + found), found, seen, true, end);
       else if (end == End::level && seen.level < target(way) - seen_again * way.share)
         found = search_end(way, found, way.bound(), {}, true, end);
       else

@@ -39,10 +39,10 @@ class OtherResponses {
       add_highest("sweep downwards");
     }
     if (observables::may_have_several_responses(*model_)) {
-      beside(window_.upper, upper.u, -1);
+      beside(window_.upper, upper, -1);
       const auto lower =
           observables::first_response(model_, window_.lower, window_.upper - window_.lower, go_on_);
-      beside(window_.lower, lower.u, 1);
+      beside(window_.lower, lower, 1);
     }
     by_deflation();
     return std::move(found_);
@@ -60,15 +60,18 @@ class OtherResponses {
   }
 
   // From further responses at an end of the window, beside the one that a branch begins or ends with.
-  void beside(double end, const std::optional<Vector>& first, int direction) {
-    if (!first) return;
-    p_[model::frequency] = end;
-    for (const Vector& u : observables::further_responses(problem_, p_, {*first}, go_on_)) {
-      if (end == window_.upper && is_upper_end(u)) continue;
+  void beside(double end, const observables::FirstResponse& first, int direction) {
+    if (!first.u) return;
+    const Vector p = hbm::parameters_at(*first.problem, end);
+    for (const Vector& u : observables::further_responses(first.problem, p, {*first.u}, go_on_)) {
+      const bool is_known = observables::index_of(*first.problem, u, ends_) < ends_.size();
+      if (is_known || (end == window_.upper && is_upper_end(u))) continue;
       at_end_ = {};
-      observables::frequency_branch_part(problem_, window_, end,
-                                         direction > 0 ? window_.upper : window_.lower, u, recording(),
-                                         direction, observables::Steps::curve, go_on_, {});
+      const auto traced = observables::frequency_branch_part(
+          first.problem, window_, end, direction > 0 ? window_.upper : window_.lower, u, recording(),
+          direction, observables::Steps::curve, go_on_, {});
+      if (go_on_ && !go_on_()) return;
+      if (!traced.branch.points.empty()) ends_.push_back(traced.branch.points.back().u);
       add_highest("search at the ends");
     }
   }
@@ -114,6 +117,7 @@ class OtherResponses {
   Vector p_;
   observables::Sensitivity sensitivity_;
   Highest at_end_{};
+  std::vector<Vector> ends_{};  // of the branches traced
   std::vector<OtherResponse> found_{};
 };
 

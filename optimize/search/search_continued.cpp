@@ -177,7 +177,7 @@ Optimum Search::search_from(const Beginning& beginning) {
       thrown = std::current_exception();
       watch_.stop();
     }
-    if (!limited_) ended_near_ = known_minimum(now.design, now.amplitude);
+    if (!limited_ && !ended_near_) ended_near_ = known_minimum(now.design, now.amplitude);
     return !watch_.stopped() && !ended_near_;
   };
   options.go_on = [this] { return watch_.go_on(); };
@@ -196,8 +196,8 @@ bool Search::has_several_starts() const {
 
 std::optional<Evaluation> Search::known_minimum(std::span<const double> design, double value) const {
   const auto leads_to = [&](const Evaluation& minimum) {
-    return std::abs(value / minimum.amplitude - 1) < next_above &&
-           space().distance(design, minimum.design) < next_to;
+    const double above = value / minimum.amplitude - 1;
+    return above > -same_minimum && above < next_above && space().distance(design, minimum.design) < next_to;
   };
   const auto found = std::find_if(minima_.begin(), minima_.end(), leads_to);
   if (found == minima_.end()) return {};

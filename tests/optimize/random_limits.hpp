@@ -53,8 +53,7 @@ inline std::vector<double> design_of(const Search& search, const scene::Scene& s
 inline optimize::Optimum look(const Search& search, const std::vector<double>& design) {
   scene::Scene there = search.scene;
   for (std::size_t k = 0; k < design.size(); ++k) scene::set(there, search.problem.over[k].name, design[k]);
-  return optimize::optimum(there, search.problem,
-                           {.evaluations = 1, .certificate = false, .starts = 1});
+  return optimize::optimum(there, search.problem, {.evaluations = 1, .certificate = false, .starts = 1});
 }
 
 /// One to four loads or stiffnesses of the dampers of a random structure, over a factor of 100 to both sides,
@@ -194,9 +193,9 @@ inline Lowest from_grid(const Search& search, std::uint64_t seed, int designs) {
   for (std::size_t k = 0; k < lowest.design.size(); ++k)
     scene::set(there, search.problem.over[k].name, lowest.design[k]);
   for (const std::string algorithm : {"LN_COBYLA", "LD_MMA"})
-    lowest.take(optimize::optimum(there, search.problem,
-                                  {.algorithm = algorithm, .certificate = false, .starts = 1}),
-                algorithm + " from the grid");
+    lowest.take(
+        optimize::optimum(there, search.problem, {.algorithm = algorithm, .certificate = false, .starts = 1}),
+        algorithm + " from the grid");
   return lowest;
 }
 

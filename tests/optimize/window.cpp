@@ -8,6 +8,7 @@
 #include <arcslip/optimize/search/optimum.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -120,6 +121,8 @@ TEST_CASE("a window that begins within a hysteresis: a higher branch than the on
   REQUIRE(found.certificate);
   CHECK(!found.certificate->others_lower);
   REQUIRE(!found.certificate->others.empty());
+  CHECK(std::count_if(found.certificate->others.begin(), found.certificate->others.end(),
+                      [](const auto& each) { return each.found_by == "search at the ends"; }) == 1);
   const auto& other = found.certificate->others[0];
   CHECK(other.found_by == "search at the ends");
   CHECK(std::abs(other.amplitude - 2.3178) < 0.3 / (9 - other.omega * other.omega));  // y there

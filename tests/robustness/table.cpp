@@ -228,10 +228,11 @@ Random cases, the same on every machine but for the moments of signals. The test
   };
   row("mutants of scenes, read, written, read again and traced", fuzz::mutants, 1, "mutants of scenes",
       "100 000: nothing crashed or hung, all that was read came back as written, and what was not finite, a "
-      "truncation estimate, was flagged. The same under the address and undefined-behaviour sanitizers, of "
-      "100 000 before the last changes and of 60 000 since; and of 45 000 of libFuzzer before them, but for "
-      "one response, huge at its first frequency, for which memory before a list was read. It is mended and "
-      "in the corpus");
+      "truncation estimate, was flagged. The same under the address and undefined-behaviour sanitizers, "
+      "twice. The second time two were wrong: a fault of a factor in `mistuning` had a pointer that leads "
+      "nowhere, and where a stiffness over a mass overflows, the largest of an empty list was read. Both are "
+      "mended. And 45 000 of libFuzzer, but for one response, huge at its first frequency, for which memory "
+      "before a list was read. It is mended and in the corpus");
   row("mutants of MATLAB files of version 5 and 7.3, plain and compressed, each read for two variables",
       mat_mutants, 4, "mutated MATLAB files",
       "28 000: all read or refused. Of the compressed ones of version 7.3, 9 of 14 000 times HDF5 ended the "
@@ -263,18 +264,29 @@ Random cases, the same on every machine but for the moments of signals. The test
       "there, beside the closed form of the response",
       tolerance_ranges::absorbers, 1, "tolerance ranges of random absorbers",
       "500: all ends where the peak is 1 or 5 % up, to 1e-9");
-  row("random structures with friction: optima over one load or two, beside responses of their own, each end of "
+  row("random structures with friction: optima over one load or two, beside responses of their own, each end "
+      "of "
       "their tolerance ranges and three places on the way there",
-      random_optima::with_ranges, 1, "random optima have the amplitude", "@OPTIMA@");
-  row("optima of random structures in windows and bounds that may miss the resonances, beside a response over "
+      random_optima::with_ranges, 1, "random optima have the amplitude",
+      "500: 327 complete, with 1804 ends of ranges, all within 1e-6. Before, of 90 one range went through a "
+      "part in "
+      "which the amplitude was 5.3 % up");
+  row("optima of random structures in windows and bounds that may miss the resonances, beside a response "
+      "over "
       "a wide window",
-      random_optima::with_other_windows, 1, "random optima in windows", "@WINDOWS@");
-  row("conservative oscillators with a cubic spring and a stop, over four decades of amplitude: the frequency "
+      random_optima::with_other_windows, 1, "random optima in windows",
+      "300: 200 have their highest value at an end of the window and a higher peak beyond, and say so; 98 "
+      "are "
+      "complete, none of them beside one. Before, 22 in which no load had an influence were complete");
+  row("conservative oscillators with a cubic spring and a stop, over four decades of amplitude: the "
+      "frequency "
       "of their modes beside the energy integral",
-      mode_accuracy::conservative, 1, "conservative modes over four decades", "@MODES@");
-  row("damped oscillators with a slider and some with a cubic spring, over four decades of amplitude: frequency "
+      mode_accuracy::conservative, 1, "conservative modes over four decades",
+      "100, with 31 650 motions: all within the 1e-4 that was asked for, and within twice the error told");
+  row("damped oscillators with a slider and some with a cubic spring, over four decades of amplitude: "
+      "frequency "
       "and damping ratio of their modes beside shooting with Runge-Kutta steps",
-      mode_accuracy::damped, 1, "damped modes over four decades", "@DAMPED@");
+      mode_accuracy::damped, 1, "damped modes over four decades", "300, with 2376 motions: likewise");
   row("frequencies from 1e-8 to 1e-2 beside a fold of a Duffing oscillator: how many responses are found, "
       "beside "
       "the cubic equation of one harmonic",

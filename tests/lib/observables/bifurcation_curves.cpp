@@ -508,7 +508,7 @@ TEST_CASE("motions that leave antisymmetric ones at a break of symmetry double t
 
 // The window has the lower break of symmetry at 27 N only: the branch is entered from there, and at 24 N from
 // the upper one, in a motion that is the mirror image of the other.
-TEST_CASE("mirror images double their period on the same curve") {
+TEST_CASE("mirror images double their period on the same curve", "[numbers]") {
   observables::BifurcationRange range{BifurcationsOf::period_doubling, "force.cosine", 24, 27, 1.2, 3,
                                       observables::Branches::all};
   range.limits.doublings = 0;

@@ -362,6 +362,23 @@ TEST_CASE(
   CHECK(std::abs(feed * (mean_square - 1) + damping) < 1e-9);
 }
 
+TEST_CASE("where the stiffness over a mass overflows, the stability is not known, and that is said") {
+  const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x", "y", "z"],
+      "masses": [{"name": "mx", "at": "x", "value": 1}, {"name": "my", "at": "y", "value": 2.225e-308},
+                 {"name": "mz", "at": "z", "value": 1}],
+      "springs": [{"name": "kx", "at": "x", "value": 1}, {"name": "kxy", "between": ["x", "y"], "value": 1},
+                  {"name": "kyz", "between": ["y", "z"], "value": 1}, {"name": "kz", "at": "z", "value": 1}],
+      "dampers": [{"name": "cx", "at": "x", "value": 0.02}]},
+    "elements": [{"name": "s", "type": "jenkins", "between": ["x", "y"], "stiffness": 20,
+        "friction_coefficient": 1, "normal_load": 1},
+      {"name": "n", "type": "cubic_spring", "at": "y", "stiffness": 1}],
+    "excitation": [{"name": "f", "at": "y", "cosine": 1}], "response": {"at": "x"}, "harmonics": {"order": 3}})");
+  const auto branch = response(s, 0.5, 0.6);
+  CHECK(branch.unknown_stability == "a mass is so small that the stiffness or the damping over it overflows");
+  for (const auto& point : branch.points) CHECK_FALSE(point.stability);
+}
+
 TEST_CASE("a branch whose stability is not known says why") {
   auto s = contacts::plane_pad(5, 25, 8);
   s.masses[0].values[0] = 0;

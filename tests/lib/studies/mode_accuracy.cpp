@@ -158,12 +158,12 @@ Half half_motion(const Damped& of, double A, double g, double step) {
   return {time + within, stepped(y, within)[0]};
 }
 
-struct Motion {
+struct FreeMotion {
   double omega, damping_ratio;
 };
 
 /// The periodic motion of amplitude A: x = -A after a half. guess: where to look for g and for the steps.
-Motion shot(const Damped& of, double A, const Motion& guess) {
+FreeMotion shot(const Damped& of, double A, const FreeMotion& guess) {
   const double step = 2 * std::numbers::pi / guess.omega / 40'000;
   const auto excess = [&](double g) { return half_motion(of, A, g, step).x + A; };
   double before = 2 * of.m * guess.omega * guess.damping_ratio;
@@ -216,7 +216,7 @@ TEST_CASE(
 }
 
 TEST_CASE("shooting has the frequency and the damping ratio of a linear oscillator") {
-  const Motion found = shot({2, 8, 0.4, 0, 0, 0}, 3, {2.1, 0.04});
+  const FreeMotion found = shot({2, 8, 0.4, 0, 0, 0}, 3, {2.1, 0.04});
   CHECK(std::abs(found.omega / 2 - 1) < 1e-10);
   CHECK(std::abs(found.damping_ratio / 0.05 - 1) < 1e-10);
 }
@@ -240,9 +240,9 @@ TEST_CASE("damped modes over four decades are within the accuracy that is told, 
     const auto& points = branch["points"];
     for (const Json& point : points) highest = std::max(highest, point["damping_ratio"].get<double>());
     for (std::size_t i = random.below(20); i < points.size(); i += 20) {
-      const Motion here{points[i]["frequency"], points[i]["damping_ratio"]};
+      const FreeMotion here{points[i]["frequency"], points[i]["damping_ratio"]};
       const double amplitude = points[i]["amplitude"];
-      const Motion exact = shot(of, amplitude, here);
+      const FreeMotion exact = shot(of, amplitude, here);
       const double away = std::max(std::abs(here.omega / exact.omega - 1),
                                    std::abs(here.damping_ratio - exact.damping_ratio) / highest);
       CAPTURE(amplitude, here.omega, exact.omega, here.damping_ratio, exact.damping_ratio);
