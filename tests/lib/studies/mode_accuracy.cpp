@@ -203,7 +203,7 @@ TEST_CASE(
     CAPTURE(seed, of.m, of.k, of.b, of.d, of.corner, branch["accuracy"].dump(), branch["stop"].dump());
     CHECK(branch["status"] == "complete");
     const Json& error = branch["accuracy"]["error"];
-    if (error.is_null()) continue;
+    REQUIRE(error.is_number());
     const double told = error;
     for (const Json& point : branch["points"]) {
       const double amplitude = point["amplitude"], frequency = point["frequency"];
@@ -234,10 +234,11 @@ TEST_CASE("damped modes over four decades are within the accuracy that is told, 
     CAPTURE(seed, of.m, of.k, of.c, of.b, of.d, of.F, branch["accuracy"].dump(), branch["stop"].dump());
     CHECK(branch["status"] == "complete");
     const Json& error = branch["accuracy"]["error"];
-    if (error.is_null()) continue;
+    REQUIRE(error.is_number());
     const double told = error;
     double highest = 0;
     const auto& points = branch["points"];
+    REQUIRE(points.size() > 20);
     for (const Json& point : points) highest = std::max(highest, point["damping_ratio"].get<double>());
     for (std::size_t i = random.below(20); i < points.size(); i += 20) {
       const FreeMotion here{points[i]["frequency"], points[i]["damping_ratio"]};
