@@ -69,7 +69,7 @@ class Search {
   bool find_feasible();
   // Over several parameters or with limits there may be several local minima: further searches from the
   // lowest of sampled designs, with limits also by LN_COBYLA, and by other algorithms from the start.
-  bool look_elsewhere();
+  bool look_elsewhere(bool at_minimum);  // whether this search led to one
   struct Beginning {
     std::vector<double> design;
     std::string algorithm;

@@ -48,7 +48,7 @@ bool Search::goes_on() {
   if (result_.status != Status::complete || best().design.empty() || !std::isfinite(best().value))
     return false;
   if (best().excess > 0) {
-    if (find_feasible() || look_elsewhere()) return true;
+    if (find_feasible() || look_elsewhere(false)) return true;
     if (interrupted()) return false;
     result_.status = Status::stopped;
     result_.stop.reason = reasons::infeasible;
@@ -58,7 +58,7 @@ bool Search::goes_on() {
   if (result_.stop.reason == reasons::flat) return false;
   if (!stand_at_best()) return false;
   if (const Balance left = balance_here(designs_); !is_stationary(left)) return refine(left);
-  if (look_elsewhere()) return true;
+  if (look_elsewhere(true)) return true;
   if (interrupted() || !options_.certificate || !stand_at_best()) return false;
   designs_.begin("the certificate");
   describe();
@@ -91,7 +91,7 @@ bool Search::refine(const Balance& left) {
     return true;
   }
   refined_ = best().value;
-  if (look_elsewhere()) return true;
+  if (look_elsewhere(false)) return true;
   if (interrupted()) return false;
   result_.status = Status::stopped;
   result_.stop.reason = reasons::not_stationary;
@@ -226,13 +226,16 @@ void Search::count_starts() {
   result_.starts = starts;
 }
 
-bool Search::look_elsewhere() {
+bool Search::look_elsewhere(bool at_minimum) {
   if (!has_several_starts() || std::exchange(sought_elsewhere_, true)) return false;
   designs_.begin("the search elsewhere");
   const std::vector<double> here = best().design;
   const bool within = best().excess == 0;
   double least = within ? (1 - gain) * best().value : HUGE_VAL;
-  if (within) minima_.push_back({here, best().value});
+  if (at_minimum)
+    minima_.push_back({here, best().value});
+  else
+    ++to_no_minimum_;
   const std::vector<Beginning> all = beginnings(within);
   std::vector<double> lower;
   if (within && best().value < least) {
