@@ -105,6 +105,17 @@ void tell_partial(Interruption& interruption) {
     tell("interrupted; the results so far will be written (press Ctrl-C again to quit at once)");
 }
 
+/// Whether the figures of a study are drawn; says so where it has too many combinations for them.
+bool draws(const scene::Study& study, const CommandOptions& options) {
+  if (options.out.empty()) return false;
+  const double count = scene::Combinations(study).count();
+  if (count <= scene::most_drawn) return true;
+  if (!options.quiet)
+    tell("no figure of the study \"" + study.name + "\" is drawn: it has " + whole(count) +
+         " combinations, and figures show at most " + std::to_string(scene::most_drawn));
+  return false;
+}
+
 /// Runs a study into a sink with a progress line. Returns its figures.
 std::vector<results::FigureData> compute_visibly(const scene::Scene& scene, const scene::Study& study,
                                                  scene::RunOptions how, const CommandOptions& options,
@@ -205,8 +216,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
 
   const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const scene::RunOptions how{
-      has_files, options.coefficients, !options.out.empty(), {}, options.threads.value_or(processors)};
+  scene::RunOptions how{has_files, options.coefficients, false, {}, options.threads.value_or(processors)};
   const results::Header header = studies::header(scene);
   std::vector<results::Schema> schemas;
   for (const scene::Study& study : studies) schemas.push_back(study.type->schema(scene, study, how));
@@ -243,6 +253,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
     OneOfSeveral among(all, i);
     Tee sinks({&table, &remarks, &own, &among});
     sinks.begin(header, std::span(&schemas[i], 1));
+    how.figures = draws(studies[i], options);
     const std::vector<results::FigureData> figures =
         compute_visibly(scene, studies[i], how, options, sinks, interruption);
     sinks.finish();

@@ -143,18 +143,33 @@ TEST_CASE("results are the same in a file that takes them as they come and where
 TEST_CASE("a sweep over many combinations takes no more memory than a short one") {
   const Workplace place;
   write_tiny_scene(place);
-  const auto kilobytes = [&](int responses) {
+  const auto swept = [&](int responses, const std::vector<std::string>& output) {
     Json scene = Json::parse(place.read("tiny.json")), values = Json::array();
     for (int k = 0; k < responses; ++k) values.push_back(3 + 0.01 * k);
     scene["studies"] = {
         {{"name", "s"}, {"kind", "frf"}, {"from", 9}, {"to", 11}, {"for_each", {{"d.normal_load", values}}}}};
     place.write("sweep.json", scene.dump());
-    const Ended ended = run(place, {"frf", "sweep.json", "--json", "s.json", "--csv", "s.csv"});
+    std::vector<std::string> command = {"frf", "sweep.json"};
+    command.insert(command.end(), output.begin(), output.end());
+    const Ended ended = run(place, command);
     CHECK(ended.exit_code == 0);
-    return ended.kilobytes;
+    return ended;
   };
+  // What the figures of up to 1000 responses show stays in memory.
+  const std::string undrawn =
+      "arcslip: no figure of the study \"s\" is drawn: it has 1001 combinations, and figures show at most "
+      "1000";
+  const Ended many_in_folder = swept(1001, {"--out", "many"}), few_in_folder = swept(3, {"--out", "few"});
+  CHECK(many_in_folder.err.find(undrawn) != std::string::npos);
+  CHECK(few_in_folder.err.find("no figure") == std::string::npos);
+  CHECK(fs::exists(place / "few/s.gp"));
+  CHECK(!fs::exists(place / "many/s.gp"));
+  CHECK(fs::exists(place / "many/s.csv"));
   if (ARCSLIP_SANITIZED) return;  // what is freed is kept
-  const long few = kilobytes(3), many = kilobytes(500);
+  CHECK(many_in_folder.kilobytes < 2 * few_in_folder.kilobytes);
+
+  const std::vector<std::string> files = {"--json", "s.json", "--csv", "s.csv"};
+  const long few = swept(3, files).kilobytes, many = swept(500, files).kilobytes;
   const auto written = static_cast<long>(fs::file_size(place / "s.json") / 1024);
   CAPTURE(few, many, written);
   CHECK(written > 4 * few);
