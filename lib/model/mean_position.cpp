@@ -14,10 +14,11 @@ namespace arcslip::model {
 
 namespace {
 
-constexpr double unnamed = 1e-6;  // of what a row or coordinate without a name counts as drifting
-constexpr double held = 1e-12;    // a mean position: its stiffness relative to that of its springs
-constexpr double soft = 1e-9;     // of the stiffness of a row: springs that hold all of it meanwhile
-constexpr double carries = 1e-6;  // of the constant force: less does not close a contact
+constexpr double unnamed = 1e-6;   // of what a row or coordinate without a name counts as drifting
+constexpr double held = 1e-12;     // a mean position: its stiffness relative to that of its springs
+constexpr double soft = 1e-9;      // of the stiffness of a row: springs that hold all of it meanwhile
+constexpr double carries = 1e-6;   // of the constant force: less does not close a contact
+constexpr double balanced = 1e-6;  // of the constant force: what may be left of it in the static equilibrium
 constexpr int static_steps = 50;
 
 // A contact that opens, along its normal, or a stop. Of a ring: where all sectors move alike.
@@ -41,18 +42,18 @@ Direction in_phase_along(const NonlinearPart& element, std::size_t i) {
   return in_phase(element.directions[i], element.next.empty() ? Direction() : element.next[i]);
 }
 
-// Those that are open at rest, or just touch.
+std::size_t normal_of(const NonlinearPart& element) {
+  return element.directions.size() - 1;
+}
+
 std::vector<OpeningContact> contacts_open_at_rest(const Model& model, const continuation::Vector& p) {
   std::vector<OpeningContact> found;
-  for (const NonlinearPart& element : model.elements) {
-    const bool is_stop = element.directions.size() == 1 && !element.law->dissipative();
-    if (!element.law->has_normal_load() && !is_stop) continue;
-    const std::size_t normal = element.directions.size() - 1;
-    const std::vector<double> fields = element.fields(p);
-    const auto traits = element.law->traits(fields, static_cast<int>(normal));
-    if (!traits.holds_mean && traits.stiffness > 0 && std::isfinite(traits.stiffness))
-      found.push_back({element, in_phase_along(element, normal), fields, traits.stiffness});
-  }
+  for (const NonlinearPart& element : model.elements)
+    if (is_open_at_rest(element, p)) {
+      const std::vector<double> fields = element.fields(p);
+      const auto traits = element.law->traits(fields, static_cast<int>(normal_of(element)));
+      found.push_back({element, in_phase_along(element, normal_of(element)), fields, traits.stiffness});
+    }
   return found;
 }
 
@@ -89,24 +90,22 @@ std::vector<Direction> closed_by_constant_force(const Model& model, const contin
   for (const OpeningContact& contact : contacts) add_outer(contact.stiffness, contact.normal, resting);
   K.diagonal() += soft * resting.cwiseAbs().rowwise().maxCoeff();
   if (!K.allFinite() || K.diagonal().cwiseAbs().minCoeff() == 0) return {};
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(model.dofs);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(model.dofs), residual = -f;
+  Eigen::MatrixXd tangent = K;
   continuation::LU<double> lu(model.dofs);
   Eigen::VectorXd correction(model.dofs);
-  std::vector<bool> closed(contacts.size()), last;
-  for (int step = 0; step < static_steps && closed != last; ++step) {
-    Eigen::MatrixXd tangent = K;
-    Eigen::VectorXd residual = K * x - f;
-    last = closed;
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      const double force = contacts[c].force(model.harmonics, x);
-      closed[c] = force != 0;
-      residual += force * contacts[c].normal;
-      if (closed[c]) add_outer(contacts[c].stiffness, contacts[c].normal, tangent);
-    }
+  for (int step = 0; residual.norm() > balanced * f.norm(); ++step) {
+    if (step == static_steps || !residual.allFinite()) return {};
     lu.factorize(tangent);
     lu.solve(residual, correction);
     x -= correction;
-    if (step == 0) last.clear();
+    tangent = K;
+    residual = K * x - f;
+    for (const OpeningContact& contact : contacts) {
+      const double force = contact.force(model.harmonics, x);
+      residual += force * contact.normal;
+      if (force != 0) add_outer(contact.stiffness, contact.normal, tangent);
+    }
   }
   std::vector<Direction> found;
   for (const OpeningContact& contact : contacts)
@@ -115,7 +114,35 @@ std::vector<Direction> closed_by_constant_force(const Model& model, const contin
   return found;
 }
 
+// The row that moves most where a stiffness holds a motion not at all.
+std::optional<int> softest_dof(const Model& model, const Eigen::MatrixXd& K) {
+  if (!K.allFinite()) return {};  // overflow: nothing is known
+  const Eigen::VectorXd size = K.cwiseAbs().rowwise().maxCoeff();
+  for (int i = 0; i < model.dofs; ++i)
+    if (size[i] == 0) return i;
+  const Eigen::VectorXd scale = size.cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * K * scale.asDiagonal();
+  const auto modes = [&]() -> continuation::SymmetricModes {
+    if (is_symmetric(model)) return continuation::symmetric_modes(scaled);
+    auto [values, V] = continuation::singular_values(scaled);
+    return {std::move(values), std::move(V)};
+  }();
+  Eigen::Index softest = 0, dof = 0;
+  if (modes.values.cwiseAbs().minCoeff(&softest) > held) return {};
+  Eigen::VectorXd share = (scale.asDiagonal() * modes.V.col(softest)).cwiseAbs();
+  share.segment(model.unnamed_from, model.unnamed_to - model.unnamed_from) *= unnamed;
+  share.maxCoeff(&dof);
+  return static_cast<int>(dof);
+}
+
 }  // namespace
+
+bool is_open_at_rest(const NonlinearPart& element, const continuation::Vector& p) {
+  const bool is_stop = element.directions.size() == 1 && !element.law->dissipative();
+  if (!element.law->has_normal_load() && !is_stop) return false;
+  const auto traits = element.law->traits(element.fields(p), static_cast<int>(normal_of(element)));
+  return !traits.holds_mean && traits.stiffness > 0 && std::isfinite(traits.stiffness);
+}
 
 std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p, bool in_stick) {
   if (model.harmonics.odd) return {};
@@ -137,24 +164,12 @@ std::optional<int> drifting_dof(const Model& model, const continuation::Vector& 
       if (const auto traits = element.law->traits(element.fields(p), static_cast<int>(i));
           traits.holds_mean || (in_stick && traits.holds_in_stick))
         add_outer(typical, in_phase_along(element, i), K);
-  for (const Direction& normal : closed_by_constant_force(model, p)) add_outer(typical, normal, K);
-  if (!K.allFinite()) return {};  // overflow: nothing is known
-  const Eigen::VectorXd size = K.cwiseAbs().rowwise().maxCoeff();
-  for (int i = 0; i < model.dofs; ++i)
-    if (size[i] == 0) return i;
-  const Eigen::VectorXd scale = size.cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * K * scale.asDiagonal();
-  const auto modes = [&]() -> continuation::SymmetricModes {
-    if (is_symmetric(model)) return continuation::symmetric_modes(scaled);
-    auto [values, V] = continuation::singular_values(scaled);
-    return {std::move(values), std::move(V)};
-  }();
-  Eigen::Index softest = 0, dof = 0;
-  if (modes.values.cwiseAbs().minCoeff(&softest) > held) return {};
-  Eigen::VectorXd share = (scale.asDiagonal() * modes.V.col(softest)).cwiseAbs();
-  share.segment(model.unnamed_from, model.unnamed_to - model.unnamed_from) *= unnamed;
-  share.maxCoeff(&dof);
-  return static_cast<int>(dof);
+  const auto drifting = softest_dof(model, K);
+  if (!drifting) return {};
+  const std::vector<Direction> closed = closed_by_constant_force(model, p);
+  if (closed.empty()) return drifting;
+  for (const Direction& normal : closed) add_outer(typical, normal, K);
+  return softest_dof(model, K);
 }
 
 }  // namespace arcslip::model

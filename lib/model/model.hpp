@@ -247,6 +247,10 @@ Eigen::MatrixXd mass_matrix(const Model& model, const continuation::Vector& p);
 Eigen::MatrixXd damping_matrix(const Model& model, const continuation::Vector& p);
 Eigen::MatrixXd stiffness_matrix(const Model& model, const continuation::Vector& p);
 
+/// Of a contact or stop: whether it is open at rest, or just touches, so that it holds a mean position only
+/// where a constant force closes it.
+bool is_open_at_rest(const NonlinearPart& element, const continuation::Vector& p);
+
 /// With a mean among the unknowns: a degree of freedom whose mean position is supported by no spring or law,
 /// directly or through others, nor by a contact or stop that the constant forces close. Friction forces do
 /// not depend on it, so that it would be arbitrary or drift. Empty if there is none. in_stick: contacts that

@@ -29,13 +29,13 @@ constexpr double events_in_window = 20;            // the same, where only its e
 constexpr double step_between_events = 1.0 / 200;  // relative to the highest frequency
 constexpr double largest_frequency_step = 0.05;  // of the frequency, so that wide windows keep their low end
 constexpr double rejected_in_rounding = 0.5;     // steps, over points: where the branch lies in its rounding
+constexpr double most_larger = 1e8;              // than the first response
 constexpr int quick_dofs = 200;                  // up to here a problem is made in a tenth of a second
 
 // Beside a drifting degree of freedom: of contacts that open, if there are any.
-std::string no_contact_closes(const model::Model& model) {
-  const bool opens = std::any_of(model.elements.begin(), model.elements.end(), [](const auto& element) {
-    return element.law->has_normal_load() || !element.law->dissipative();
-  });
+std::string no_contact_closes(const model::Model& model, const Vector& p) {
+  const bool opens = std::any_of(model.elements.begin(), model.elements.end(),
+                                 [&](const auto& element) { return model::is_open_at_rest(element, p); });
   return opens ? ", nor does a contact that the constant forces close" : "";
 }
 
@@ -171,7 +171,7 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
     return {
         problem,
         {},
-        "no spring holds the mean position of " + model::told(*model, *dof) + no_contact_closes(*model) +
+        "no spring holds the mean position of " + model::told(*model, *dof) + no_contact_closes(*model, p) +
             ", and friction leaves it free to drift; add a spring between it and the ground or a supported "
             "degree of freedom, or excite odd harmonics only, with an odd \"period\" of the harmonics, or "
             "let a "
@@ -249,7 +249,8 @@ FrequencyBranch traced(const std::shared_ptr<const hbm::HbmProblem>& problem, co
 
 // The response without the elements over the scale of a problem, if it is larger: where contacts stick, or
 // the ground hardly moves, the first response is small beside all that follows. The middle one of three,
-// since one of them may be at a resonance.
+// since one of them may be at a resonance. Contacts alone may hold the structure, which then has a response
+// of any size without them.
 double size_without_elements(const hbm::HbmProblem& problem, const FrequencyWindow& window) {
   std::array<double, 3> sizes{};
   const std::array at{window.lower, std::midpoint(window.lower, window.upper), window.upper};
@@ -258,7 +259,7 @@ double size_without_elements(const hbm::HbmProblem& problem, const FrequencyWind
   std::sort(sizes.begin(), sizes.end(),
             [](double a, double b) { return a < b || (!std::isnan(a) && std::isnan(b)); });
   const double size = sizes[1] / problem.displacement();
-  return std::isfinite(size) ? std::max(size, 1.0) : 1.0;
+  return std::isfinite(size) ? std::clamp(size, 1.0, most_larger) : 1.0;
 }
 
 }  // namespace

@@ -223,6 +223,10 @@ void Search::count_starts() {
     starts.to_optimum += each.amplitude <= (1 + same_minimum) * result_.amplitude;
     starts.highest = std::max(starts.highest, each.amplitude);
   }
+  if (starts.to_optimum == 0) {  // of the start from whose end the search went on lower
+    starts.to_optimum = 1;
+    starts.to_none = std::min(starts.to_none, starts.count - 1);
+  }
   result_.starts = starts;
 }
 

@@ -162,7 +162,7 @@ TEST_CASE("a curve of optima asks in the search for its first point, and along i
 }
 
 TEST_CASE("what a callback throws while other starts are looked at ends the search with its text") {
-  scene::Scene s = scenes::paper(15, 3);
+  scene::Scene s = scenes::paper(5, 3);
   scene::set(s, "c.value", 3);
   optimize::OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 15, 24};
   problem.limits.push_back({.observable = "energy_friction", .at_most = 1e-4});

@@ -113,6 +113,7 @@ std::optional<int> check_optimum(std::uint64_t seed) {
                                       search.problem.frequency_from, search.problem.frequency_to));
   CHECK(std::abs(found.amplitude / peak.amplitude - 1) < accurate);
   REQUIRE(found.certificate);
+  if (found.starts) CHECK(found.starts->to_optimum > 0);
   int ends = 0;
   for (std::size_t k = 0; k < found.certificate->ranges.size(); ++k)
     for (const optimize::ToleranceRange& range : found.certificate->ranges[k]) {
@@ -136,7 +137,7 @@ TEST_CASE(
       ends += *looked_at;
     }
   std::cout << complete << " complete, " << ends << " ends of ranges" << std::endl;
-  CHECK(complete > 0);
+  CHECK(2 * complete >= static_cast<int>(random_optima::with_ranges.count()));  // of 500, 327
 }
 
 // d3.stiffness may fall by four decades, to its bound, where the amplitude is within 5 % again.

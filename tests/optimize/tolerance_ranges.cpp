@@ -134,3 +134,33 @@ TEST_CASE("tolerance ranges of random absorbers end where the closed form does")
     check(start, problem);
   }
 }
+
+TEST_CASE(
+    "a tolerance range of an optimum at a bound of 0 begins there, and ends where the peak is too high") {
+  // A mass of 1 + m2 on a spring of 1 N/m with a damper: a peak of 1/(2 zeta sqrt(1 - zeta^2)), which rises
+  // with the mass m2.
+  const double c = 0.1;
+  const auto peak = [&](double m2) {
+    const double zeta = c / (2 * std::sqrt(1 + m2));
+    return 1 / (2 * zeta * std::sqrt(1 - zeta * zeta));
+  };
+  const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}, {"name": "m2", "at": "x", "value": 0.5}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
+    "excitation": [{"name": "f", "at": "x", "cosine": 1}], "response": {"at": "x"}, "harmonics": {"order": 1}})");
+  const Optimum found = optimize::optimum(s, {{{"m2.value", 0, 1}}, 0.5, 1.5});
+  CAPTURE(found.stop.message);
+  REQUIRE(found.status == observables::Status::complete);
+  CHECK(found.design == std::vector<double>{0});
+  CHECK(found.amplitude == Approx(peak(0)).epsilon(1e-9));
+  REQUIRE(found.certificate);
+  REQUIRE(found.certificate->ranges.size() == 1);
+  REQUIRE_FALSE(found.certificate->ranges[0].empty());
+  for (const optimize::ToleranceRange& range : found.certificate->ranges[0]) {
+    CAPTURE(range.share, range.upper);
+    CHECK(range.lower == 0);
+    CHECK(range.lower_is_bound);
+    CHECK_FALSE(range.upper_is_bound);
+    CHECK(peak(range.upper) / ((1 + range.share) * peak(0)) == Approx(1).epsilon(1e-6));
+  }
+}

@@ -66,6 +66,18 @@ TEST_CASE("a constant force that opens the contact, or none, leaves the block fr
   }
 }
 
+TEST_CASE("where nothing can open, no contact is spoken of") {
+  const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x", "y"], "masses": [{"name": "m", "at": "x", "value": 1}, {"name": "n", "at": "y", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "y", "value": 0.1}]},
+    "elements": [{"name": "s", "type": "cubic_spring", "at": "x", "stiffness": 1}],
+    "excitation": [{"name": "f", "at": "y", "cosine": 1}, {"name": "g", "at": "y", "cosine": 1, "harmonic": 0}],
+    "harmonics": {"order": 3}, "response": {"at": "x"}})");
+  const auto branches = observables::frequency_response(s, {0.3, 2});
+  CHECK(branches[0].stop.message.find("no spring holds the mean position of \"y\", and friction") !=
+        std::string::npos);
+}
+
 TEST_CASE("a mass that a constant force alone presses against a stop stays there, as on a spring") {
   // It moves by 0.5 N / |10 - w^2 + 0.1 i w| about 0.6 m, more than the stop's gap of 0.1 m by 0.5 m.
   for (const double side : {1.0, -1.0}) {

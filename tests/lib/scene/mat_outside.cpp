@@ -240,7 +240,7 @@ TEST_CASE("sizes beyond what a short MATLAB file can hold take no memory and no 
   CHECK(of(mat_bytes::header("MATLAB 7.3 MAT-file", 1) + one) ==
         "\"A.mat\": found no MATLAB file of version 5 or 7.3 that can be read; it may be damaged");
   CHECK(of(mat_bytes::header("MATLAB 5.0 MAT-file", 2) + one) == "\"A.mat\": found a damaged header");
-  CHECK(megabytes() < 200);
+  CHECK(megabytes() < (ARCSLIP_SANITIZED ? 1000 : 200));  // there, what is freed is kept for a while
   CHECK(seconds() - before < 20);
 }
 
