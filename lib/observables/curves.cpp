@@ -158,7 +158,9 @@ class Curves {
   }
 
   SpecialPoints seen_at(double over) {
-    if (!all_) return special_points(way_, over, window_, kinds_, [this] { return go_on(); });
+    if (!all_)
+      return special_points(way_, over, window_, kinds_, OtherBranches::from_ends,
+                            [this] { return go_on(); });
     return special_points_of_all(way_, over, window_, kinds_, *all_, unit_, [this](const Progress& now) {
       progress_.points = now.points;
       progress_.frequency = now.frequency;
@@ -186,7 +188,8 @@ class Curves {
     std::vector<std::string> told;
     for (const LeavingBranch& each : all)
       told.push_back("the branch that leaves at the " + words_of(each.kind) + " at " +
-                     frequency_text(each.omega, unit_) + ": only one branch was looked at (branches)");
+                     frequency_text(each.omega, unit_) +
+                     ": only one branch was looked at, all are with \"branches\": \"all\"");
     tell_untraced(told, over);
   }
 

@@ -94,10 +94,8 @@ class Sweep {
       pieces.push_back(trace_from_first_of(far_side_));
       ResponseBranch& last = pieces.back().response;
       if (piece > 0) last.parent = 1;
-      // A pole that is reached on the way down has nothing beyond that an earlier part does not have.
-      const double next = far_side_.starts.front();
-      const bool is_ahead = last.points.empty() || next > last.points.back().omega;
-      if (last.stop.reason != reasons::unbounded || !is_ahead || !(next < upper_)) break;
+      if (last.stop.reason != reasons::unbounded || !far_side_.ahead || !(far_side_.starts.front() < upper_))
+        break;
     }
     return pieces;
   }

@@ -5,6 +5,7 @@
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/observe.hpp>
 #include <arcslip/observables/reasons.hpp>
+#include <arcslip/observables/solutions_beside.hpp>
 #include <arcslip/observables/study_branches.hpp>
 #include <arcslip/observables/unbounded.hpp>
 
@@ -31,70 +32,143 @@ bool others_leave_at(const std::string& kind) {
          kind == event_kinds::branch_point;
 }
 
-// From a place to the next pole, or to the end of the window. Returns where the branch goes on beyond that
-// pole, or the end of the window that it reached.
-BeyondPole add_points(const std::shared_ptr<const model::Model>& model, double over, const BeyondPole& place,
-                      int direction, const FrequencyWindow& window, const std::vector<std::string>& kinds,
-                      const GoOn& go_on, SpecialPoints& found) {
-  const double from = place.starts.front();
-  if (const auto growth = unbounded_resonance(model, from); growth.unbounded) {
-    found.unbounded = growth.message;
-    return beyond_pole_at_start(from, window.upper - window.lower);
+// Special points of one response after the other, at one value of a parameter.
+class Search {
+ public:
+  Search(std::shared_ptr<const model::Model> model, double over, const FrequencyWindow& window,
+         const std::vector<std::string>& kinds, const GoOn& go_on)
+      : model_(std::move(model)),
+        over_(over),
+        window_(window),
+        kinds_(kinds),
+        go_on_(go_on),
+        stability_(std::any_of(kinds.begin(), kinds.end(), is_bifurcation)),
+        watched_{.stability = {stability_},
+                 .phase = std::find(kinds.begin(), kinds.end(), event_kinds::phase_resonance) != kinds.end(),
+                 .branch_points = stability_} {}
+
+  SpecialPoints run(OtherBranches others) {
+    BeyondPole from{{window_.lower}};
+    bool turned_back = false;
+    for (int piece = 0; piece <= 2 * model_->dofs && from.starts.front() < window_.upper && !turned_back;
+         ++piece) {
+      BeyondPole reached = add_from(from, 1);
+      turned_back = !reached.ahead || reached.starts.front() <= from.starts.front();
+      from = std::move(reached);
+    }
+    // Responses above the fold at which it turned back are on another branch, or reached from above.
+    if (turned_back) add_from({{window_.upper}}, -1);
+    if (others == OtherBranches::from_ends && found_.failure.empty() && may_have_several_responses(*model_))
+      add_others_from_ends();
+    return std::move(found_);
   }
-  const std::size_t before = found.points.size();
-  PoleWatch watch(window.lower, window.upper);
-  const bool stability = std::any_of(kinds.begin(), kinds.end(), is_bifurcation);
-  const auto record = [&](Observer& observer, const Accepted& now, const continuation::Event* event) {
-    if (event) {
-      if (stability && others_leave_at(event->monitor))
-        found.leaving.push_back({event->monitor, event->point.parameter});
-      if (std::find(kinds.begin(), kinds.end(), event->monitor) == kinds.end()) return true;
+
+ private:
+  Record recording(PoleWatch& watch) {
+    return [this, &watch](Observer& observer, const Accepted& now, const continuation::Event* event) {
+      if (!event) {
+        if (stability_) add(observer.observe(now), found_.looked_at);
+        return !watch.is_next_to_pole(observer.problem(), now.p, now.u);
+      }
+      if (stability_ && others_leave_at(event->monitor))
+        found_.leaving.push_back({event->monitor, event->point.parameter});
+      if (std::find(kinds_.begin(), kinds_.end(), event->monitor) == kinds_.end()) return true;
       const ResponsePoint point = observer.observe(now);
       if (event->monitor == event_kinds::peak && is_rounding(point)) return true;
       Vector x(now.u.size() + 1);
       x << now.u, now.parameter;
-      found.points.push_back({{}, over, std::move(x), event->nonsmooth, event->monitor, point.amplitude});
+      found_.points.push_back({{}, over_, std::move(x), event->nonsmooth, event->monitor, point.amplitude});
       return true;
+    };
+  }
+
+  // What a traced branch tells besides its special points, those from `first` on.
+  void take(const FrequencyBranch& traced, std::size_t first) {
+    problem_ = traced.problem;
+    if (found_.unknown_stability.empty()) found_.unknown_stability = traced.unknown_stability;
+    for (std::size_t i = first; i < found_.points.size(); ++i) found_.points[i].problem = traced.problem;
+    if (traced.branch.points.empty()) return;
+    for (const auto* end : {&traced.branch.points.front(), &traced.branch.points.back()})
+      if (end->parameter == window_.lower || end->parameter == window_.upper)
+        ends_.push_back({end->parameter, end->u});
+  }
+
+  // From a place to the next pole, or to the end of the window. Returns where the branch goes on beyond that
+  // pole, or the end of the window that it reached.
+  BeyondPole add_from(const BeyondPole& place, int direction) {
+    const double from = place.starts.front();
+    if (const auto growth = unbounded_resonance(model_, from); growth.unbounded) {
+      found_.unbounded = growth.message;
+      return beyond_pole_at_start(from, window_.upper - window_.lower);
     }
-    if (stability) add(observer.observe(now), found.looked_at);
-    return !watch.is_next_to_pole(observer.problem(), now.p, now.u);
-  };
-  const bool phase = std::find(kinds.begin(), kinds.end(), event_kinds::phase_resonance) != kinds.end();
-  const auto swept = frequency_branch(model, window, from, record, direction, Steps::curve, go_on,
-                                      {.stability = stability, .phase = phase, .branch_points = stability},
-                                      place.displacement);
-  if (swept.branch.stop.reason == StopReason::start_failed && place.starts.size() > 1) {
-    const BeyondPole farther{{place.starts.begin() + 1, place.starts.end()}, place.displacement};
-    return add_points(model, over, farther, direction, window, kinds, go_on, found);
+    const std::size_t before = found_.points.size();
+    PoleWatch watch(window_.lower, window_.upper);
+    const auto swept = frequency_branch(model_, window_, from, recording(watch), direction, Steps::curve,
+                                        go_on_, watched_, place.displacement);
+    const auto& stop = swept.branch.stop;
+    if (stop.reason == StopReason::start_failed && place.starts.size() > 1) {
+      BeyondPole farther = place;
+      farther.starts.erase(farther.starts.begin());
+      return add_from(farther, direction);
+    }
+    take(swept, before);
+    if (watch.growth().unbounded) {
+      found_.unbounded = watch.growth().message;
+      return watch.beyond();
+    }
+    if (stop.reason == StopReason::boundary) return {{stop.value}};
+    found_.failure = stop.message;
+    return {{window_.upper}};
   }
-  found.unknown_stability = swept.unknown_stability;
-  for (std::size_t i = before; i < found.points.size(); ++i) found.points[i].problem = swept.problem;
-  if (watch.growth().unbounded) {
-    found.unbounded = watch.growth().message;
-    return watch.beyond();
+
+  // A window may begin or end within a hysteresis: the responses that its ends have besides.
+  void add_others_from_ends() {
+    for (const double end : {window_.lower, window_.upper})
+      for (const Vector& u :
+           further_responses(problem_, hbm::parameters_at(*problem_, end), responses_at(end), go_on_)) {
+        const std::vector<Vector> known = responses_at(end);
+        if (index_of(*problem_, u, known) == known.size() && (!go_on_ || go_on_())) add_inwards(end, u);
+      }
   }
-  if (swept.branch.stop.reason == StopReason::boundary) return {{swept.branch.stop.value}};
-  found.failure = swept.branch.stop.message;
-  return {{window.upper}};
-}
+
+  std::vector<Vector> responses_at(double omega) const {
+    std::vector<Vector> all;
+    for (const auto& [at, u] : ends_)
+      if (at == omega) all.push_back(u);
+    return all;
+  }
+
+  void add_inwards(double end, const Vector& u) {
+    const bool is_up = end == window_.lower;
+    const std::size_t before = found_.points.size();
+    PoleWatch watch(window_.lower, window_.upper);
+    const auto traced =
+        frequency_branch_part(problem_, window_, end, is_up ? window_.upper : window_.lower, u,
+                              recording(watch), is_up ? 1 : -1, Steps::curve, go_on_, watched_);
+    take(traced, before);
+    if (watch.growth().unbounded)
+      found_.unbounded = watch.growth().message;
+    else if (traced.branch.stop.reason != StopReason::boundary)
+      found_.failure = traced.branch.stop.message;
+  }
+
+  std::shared_ptr<const model::Model> model_;
+  double over_;
+  const FrequencyWindow& window_;
+  const std::vector<std::string>& kinds_;
+  const GoOn& go_on_;
+  bool stability_;
+  Watched watched_;
+  SpecialPoints found_;
+  std::shared_ptr<const hbm::HbmProblem> problem_;  // of the branch that was traced last
+  std::vector<std::pair<double, Vector>> ends_;     // of all branches, at the ends of the window
+};
 
 }  // namespace
 
 SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
-                             const std::vector<std::string>& kinds, const GoOn& go_on) {
-  SpecialPoints found;
-  const auto model = way.at(over);
-  BeyondPole from{{window.lower}};
-  bool turned_back = false;
-  for (int piece = 0; piece <= 2 * model->dofs && from.starts.front() < window.upper && !turned_back;
-       ++piece) {
-    BeyondPole reached = add_points(model, over, from, 1, window, kinds, go_on, found);
-    turned_back = reached.starts.front() <= from.starts.front();
-    from = std::move(reached);
-  }
-  // Responses above the fold at which it turned back are on another branch, or reached from above.
-  if (turned_back) add_points(model, over, {{window.upper}}, -1, window, kinds, go_on, found);
-  return found;
+                             const std::vector<std::string>& kinds, OtherBranches others, const GoOn& go_on) {
+  return Search(way.at(over), over, window, kinds, go_on).run(others);
 }
 
 SpecialPoints special_points_of_all(const OverParameter& way, double over, const FrequencyWindow& window,

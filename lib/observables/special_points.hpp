@@ -41,11 +41,19 @@ struct SpecialPoints {
   LookedAt looked_at{};                  // where bifurcations are looked for: the responses
 };
 
+/// Besides the branch from the response from rest at the lower end of a frequency window.
+enum class OtherBranches {
+  none,
+  from_ends  // those of further responses at the ends: a window may begin or end within a hysteresis
+};
+
 /// The special points in a frequency window at the value `over` of the parameter, on the branch from its
-/// lower end on. kinds: of events, event_kinds::peak, fold, or of_curves, for which multipliers are computed
-/// and the branches that leave it are told. If go_on returns false, the points found so far.
+/// lower end on, and on others. kinds: of events, event_kinds::peak, fold, or of_curves, for which
+/// multipliers are computed and the branches that leave are told. If go_on returns false, the points found so
+/// far.
 SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
-                             const std::vector<std::string>& kinds, const GoOn& go_on = {});
+                             const std::vector<std::string>& kinds, OtherBranches others,
+                             const GoOn& go_on = {});
 
 /// The same of all branches (all_branches.hpp). If progress returns false, the points found so far.
 SpecialPoints special_points_of_all(const OverParameter& way, double over, const FrequencyWindow& window,

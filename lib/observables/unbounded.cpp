@@ -194,6 +194,7 @@ BeyondPole PoleWatch::beyond() const {
     if (const double farther = pole_ * (1 + side * share); farther >= lower_ && farther <= upper_)
       there.starts.push_back(farther);
   there.displacement = last.size * std::abs(distance) / pole_;
+  there.ahead = side > 0;
   return there;
 }
 

@@ -35,6 +35,7 @@ Unboundedness unbounded_resonance(const std::shared_ptr<const model::Model>& mod
 struct BeyondPole {
   std::vector<double> starts;  // rad/s: the first of them that has a response
   double displacement = 0;     // m: the scale there; 0: that of the first response
+  bool ahead = true;           // above the pole. A branch that turned back has passed below it before
 };
 
 /// Beyond a pole (rad/s) that a branch begins at. width: of the frequency window, rad/s.

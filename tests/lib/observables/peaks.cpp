@@ -9,6 +9,7 @@
 #include "lib/observables/reference.hpp"
 
 #include <arcslip/observables/curves.hpp>
+#include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/reasons.hpp>
 
 #include <algorithm>
@@ -382,4 +383,28 @@ TEST_CASE(
   const double back = surpassed->points.front().over > end.over ? 1 : -1;
   CHECK(has_peak(end.over * (1 + 3e-3 * back)));
   CHECK_FALSE(has_peak(end.over * (1 - 3e-3 * back)));
+}
+
+TEST_CASE("in a window that begins within a hysteresis the peaks of the upper responses have their curve") {
+  // With one harmonic, x'' + c x' + x + k x^3 = f cos wt has its peak a where w^2 = 1 + 3/4 k a^2 - c^2/2 and
+  // (c a)^2 (w^2 + c^2/4) = f^2.
+  // a^2.
+  const double c = 0.05, k = 0.1;
+  const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.05}]},
+    "elements": [{"name": "s", "type": "cubic_spring", "at": "x", "stiffness": 0.1}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 0.2}], "harmonics": {"order": 1}, "response": {"at": "x"}})");
+  const auto from_rest = observables::frequency_response(s, {1.25, 1.29});
+  REQUIRE(from_rest[0].points.front().amplitude < 1);  // the lower of three
+  const auto curves = observables::resonance_peaks(s, {"f.cosine", 0.2, 0.25, 1.25, 1.5});
+  REQUIRE(curves.size() == 1);
+  CHECK(curves[0].status == observables::Status::complete);
+  CHECK(curves[0].points.front().over == 0.2);
+  CHECK(curves[0].points.back().over == 0.25);
+  for (const ResponsePoint& point : curves[0].points) {
+    const double square = 1 + 0.75 * k * point.amplitude * point.amplitude - c * c / 2;
+    CHECK(std::abs(point.omega / std::sqrt(square) - 1) < 1e-9);
+    CHECK(std::abs(c * point.amplitude * std::sqrt(square + c * c / 4) / point.over - 1) < 1e-9);
+  }
 }

@@ -5,6 +5,7 @@
 
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/observables/curves.hpp>
 #include <arcslip/observables/frequency_response.hpp>
 #include <arcslip/observables/reasons.hpp>
 
@@ -164,4 +165,35 @@ TEST_CASE("each of two undamped modes is unbounded at its natural frequency") {
   CHECK(std::abs(found[0] - 1) < 1e-9);
   CHECK(std::abs(found[1] - std::sqrt(3.0)) < 1e-9);
   CHECK(has_point(branches, 1 + 1e-6, 1.001));
+}
+
+TEST_CASE("beyond the fold of a branch that turns back to a pole, peaks are found from the other end") {
+  // x on a spring of 1 N/m that yields to 1/4 N/m beyond 1 m, without damping: its branch from rest has a
+  // fold below 1 rad/s, and turns back to the pole of the far stiffness, 0.5 rad/s. Beside it a mass y on a
+  // spring of 2.25 N/m with a damper of 0.1 N s/m, whose peak is beyond.
+  const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x", "y"], "masses": [{"name": "m", "at": "x", "value": 1}, {"name": "n", "at": "y", "value": 1}],
+      "springs": [{"name": "k", "at": "y", "value": 2.25}], "dampers": [{"name": "c", "at": "y", "value": 0.1}]},
+    "elements": [{"name": "s", "type": "bilinear_spring", "at": "x", "stiffness": 1, "stiffness_beyond": 0.25, "corner": 1}],
+    "excitation": [{"name": "f", "at": "x", "cosine": 0.1}, {"name": "g", "at": "y", "cosine": 0.1}],
+    "harmonics": {"order": 1}, "response": {"at": "y"}})");
+  const auto branches = observables::frequency_response(s, {0.2, 2});
+  REQUIRE(branches.size() == 2);
+  CAPTURE(branches[0].stop.message, branches[1].stop.message);
+  CHECK(branches[0].stop.reason == observables::reasons::unbounded);
+  CHECK(std::abs(branches[0].events.back().point.omega / 0.5 - 1) < 1e-6);
+  CHECK(branches[0].points.back().omega > 0.5);  // reached on the way down
+  const auto peak = std::find_if(branches[1].events.begin(), branches[1].events.end(), [](const auto& event) {
+    return event.kind == "peak" && event.point.omega > 1;
+  });
+  REQUIRE(peak != branches[1].events.end());
+  const auto curves = observables::resonance_peaks(s, {"f.cosine", 0.1, 0.12, 0.2, 2});
+  REQUIRE(curves.size() == 2);  // that of y at the fold of x, and
+  const auto& curve = curves[0].points[0].omega > 1 ? curves[0] : curves[1];
+  CHECK(curve.points.front().over == 0.1);
+  CHECK(curve.points.back().over == 0.12);
+  for (const auto& point : curve.points) {
+    CHECK(std::abs(point.omega * point.omega / (2.25 - 0.005) - 1) < 1e-9);
+    CHECK(std::abs(point.amplitude * std::sqrt(2.25 - 0.0025) - 1) < 1e-9);
+  }
 }
