@@ -77,6 +77,15 @@ TEST_CASE(
   REQUIRE_FALSE(found.empty());
   for (const PointResponse& each : found)
     CHECK(each.doubt.find("other responses may be missing, since the branch could not be continued: ") == 0);
+  // Of branches over a parameter that begin there as well.
+  const auto traced = [](double cubic, double force, double frequency) {
+    return observables::parameter_response(
+               duffing_scene(cubic, force),
+               {.over = "f.cosine", .from = force, .to = 1.01 * force, .frequency = frequency})
+        .front();
+  };
+  CHECK(traced(0.1, 0.2, 1.2).doubt.empty());
+  CHECK(traced(-0.5, 0.3, 0.5).doubt.find("other responses may be missing, since") == 0);
 }
 
 TEST_CASE("between folds at kinks a response is found for each passage of the frequency response") {
