@@ -135,7 +135,8 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   if (has_internal || problem_.harmonics().order * base < highest)
     estimate += further_change(now, extreme, held, is_at_corner);
   const double beyond = all.order * base < highest ? response_beyond(now) : 0;
-  const bool small = size + beyond <= small_change * extreme.amplitude && std::isfinite(estimate);
+  const double most = small_change * extreme.amplitude;  // also of the second correction
+  const bool small = size + beyond <= most && estimate <= most;
   if (small) estimate = std::max(estimate, beyond);
   return {.amplitude = std::isfinite(estimate) ? estimate : std::abs(change),
           .change = change,

@@ -53,6 +53,7 @@ inline void compare(const std::shared_ptr<const model::Model>& model, const elem
       ++to.flagged;
       continue;
     }
+    CHECK(point.truncation_estimate < point.amplitude);
     const auto exact = amplitude(model, kept, point);
     if (!exact) continue;
     const double error = std::abs(point.amplitude - *exact);

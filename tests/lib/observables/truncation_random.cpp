@@ -33,6 +33,8 @@ TEST_CASE(
     const elements::Harmonics kept = model::build(s).harmonics;
     s.harmonics.order = 3 * s.harmonics.order + 12;
     const auto higher = same_event::response(s);
+    for (const auto& point : branch.points)
+      if (!point.truncation_flagged) CHECK(point.truncation_estimate < point.amplitude);
     for (const auto& event : branch.events) {
       CAPTURE(event.kind, event.nonsmooth, event.point.omega, event.point.truncation_estimate);
       ++events;
