@@ -4,7 +4,8 @@
 
 namespace truncation {
 
-/// Random structures with a Bouc-Wen element.
-inline constexpr Volume bouc_wen{"ARCSLIP_BOUC_WEN", 10, 300};
+/// Random structures with each of `law_count` laws of force.
+inline constexpr Volume each_law{"ARCSLIP_ESTIMATES", 2, 60};
+inline constexpr std::uint64_t law_count = 15;
 
 }  // namespace truncation

@@ -146,7 +146,9 @@ Half half_motion(const Damped& of, double A, double g, double step) {
   };
   State y{A, 0, std::min(of.d * A, of.F)};
   double time = 0;
-  for (State next = stepped(y, step); next[1] < 0; next = stepped(y, step)) {
+  constexpr int most_steps = 1'000'000;
+  int steps = 0;
+  for (State next = stepped(y, step); next[1] < 0 && steps < most_steps; next = stepped(y, step), ++steps) {
     y = next;
     time += step;
   }
