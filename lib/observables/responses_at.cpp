@@ -59,7 +59,7 @@ class ResponseSearch {
     take(swept);
     if (const auto& stop = swept.branch.stop;
         stop.reason == StopReason::boundary && stop.value != window_.upper)
-      doubt(stop.message);
+      doubt_of_branch(stop.message);
     // Newton's method may have ended next to a response that it does not come to.
     const auto corrected = hbm::response_near(*found_.problem, p_, first);
     const bool is_next = std::any_of(all_.u.begin(), all_.u.end(), [&](const Vector& other) {
@@ -67,11 +67,15 @@ class ResponseSearch {
     });
     const bool is_off = corrected && (first - *corrected).norm() > same_solution * corrected->norm();
     const Vector start = is_off ? *corrected : first;
-    if (corrected ? !all_.has(start) : !is_next) {
+    const bool is_one = corrected || all_.u.empty();
+    if (corrected ? !all_.has(start) : is_one) {
       all_.u.push_back(start);
       follow(start);
     }
-    if (corrected || !is_next) put_first(start);
+    if (is_one)
+      put_first(start);
+    else if (!is_next)
+      doubt("one that was found from rest could not be corrected");
     for (const Vector& guess : guesses)
       if (const auto u = hbm::response_near(*found_.problem, p_, guess); u && !stopped() && all_.add(*u))
         follow(*u);
@@ -113,12 +117,13 @@ class ResponseSearch {
     const continuation::Branch& branch = traced.branch;
     all_.take(branch);
     const bool ends = branch.stop.reason == StopReason::boundary || branch.stop.reason == StopReason::closed;
-    if (!ends) doubt(branch.stop.message);
+    if (!ends) doubt_of_branch(branch.stop.message);
   }
 
+  void doubt_of_branch(const std::string& why) { doubt("the branch could not be continued: " + why); }
+
   void doubt(const std::string& why) {
-    if (found_.doubt.empty())
-      found_.doubt = "other responses may be missing, since the branch could not be continued: " + why;
+    if (found_.doubt.empty()) found_.doubt = "other responses may be missing, since " + why;
   }
 
   std::shared_ptr<const model::Model> model_;

@@ -33,10 +33,10 @@ bool others_leave_at(const std::string& kind) {
 }
 
 // Special points of one response after the other, at one value of a parameter.
-class Search {
+class SpecialPointSearch {
  public:
-  Search(std::shared_ptr<const model::Model> model, double over, const FrequencyWindow& window,
-         const std::vector<std::string>& kinds, const GoOn& go_on)
+  SpecialPointSearch(std::shared_ptr<const model::Model> model, double over, const FrequencyWindow& window,
+                     const std::vector<std::string>& kinds, const GoOn& go_on)
       : model_(std::move(model)),
         over_(over),
         window_(window),
@@ -168,7 +168,7 @@ class Search {
 
 SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
                              const std::vector<std::string>& kinds, OtherBranches others, const GoOn& go_on) {
-  return Search(way.at(over), over, window, kinds, go_on).run(others);
+  return SpecialPointSearch(way.at(over), over, window, kinds, go_on).run(others);
 }
 
 SpecialPoints special_points_of_all(const OverParameter& way, double over, const FrequencyWindow& window,

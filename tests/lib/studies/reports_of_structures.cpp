@@ -62,6 +62,14 @@ TEST_CASE("a wedge on its static offset between two masses moves as by integrati
     CHECK(std::abs(last["amplitude"].get<double>() - motion["amplitude"].get<double>()) <=
           2 * last["truncation_estimate"].get<double>());
   }
+  // Newton's method from rest ends beside the response, at what is none.
+  scene::Scene seven = at_frequency("wedge_damper", 162.7);
+  seven.harmonics.order = 7;
+  const Json found = responses_at(seven);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0]["status"] == "complete");
+  check(found[0]["amplitude"], "3.7330e-4", found[0]["truncation_estimate"]);
+
   const Json whole = branches_of(scene_of("wedge_damper", studies::frf()));
   REQUIRE(whole.size() == 1);
   check_complete(whole[0]);
