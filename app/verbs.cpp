@@ -105,15 +105,12 @@ void tell_partial(Interruption& interruption) {
     tell("interrupted; the results so far will be written (press Ctrl-C again to quit at once)");
 }
 
-/// Whether the figures of a study are drawn; says so where it has too many combinations for them.
-bool draws(const scene::Study& study, const CommandOptions& options) {
-  if (options.out.empty()) return false;
+/// Where a study has too many combinations for figures.
+void tell_not_drawn(const scene::Study& study, const std::vector<results::FigureData>& figures) {
   const double count = scene::Combinations(study).count();
-  if (count <= scene::most_drawn) return true;
-  if (!options.quiet)
+  if (figures.empty() && count > scene::most_drawn)
     tell("no figure of the study \"" + study.name + "\" is drawn: it has " + whole(count) +
          " combinations, and figures show at most " + std::to_string(scene::most_drawn));
-  return false;
 }
 
 /// Runs a study into a sink with a progress line. Returns its figures.
@@ -216,7 +213,8 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
 
   const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  scene::RunOptions how{has_files, options.coefficients, false, {}, options.threads.value_or(processors)};
+  const scene::RunOptions how{
+      has_files, options.coefficients, !options.out.empty(), {}, options.threads.value_or(processors)};
   const results::Header header = studies::header(scene);
   std::vector<results::Schema> schemas;
   for (const scene::Study& study : studies) schemas.push_back(study.type->schema(scene, study, how));
@@ -253,10 +251,10 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
     OneOfSeveral among(all, i);
     Tee sinks({&table, &remarks, &own, &among});
     sinks.begin(header, std::span(&schemas[i], 1));
-    how.figures = draws(studies[i], options);
     const std::vector<results::FigureData> figures =
         compute_visibly(scene, studies[i], how, options, sinks, interruption);
     sinks.finish();
+    if (how.figures && !options.quiet) tell_not_drawn(studies[i], figures);
     for (const std::string& sentence : remarks.early_ends) {
       code = ExitCode::stopped_early;
       tell(sentence);

@@ -94,7 +94,7 @@ std::vector<Direction> closed_by_constant_force(const Model& model, const contin
   Eigen::MatrixXd tangent = K;
   continuation::LU<double> lu(model.dofs);
   Eigen::VectorXd correction(model.dofs);
-  for (int step = 0; residual.norm() > balanced * f.norm(); ++step) {
+  for (int step = 0; !(residual.stableNorm() <= balanced * f.stableNorm()); ++step) {
     if (step == static_steps || !residual.allFinite()) return {};
     lu.factorize(tangent);
     lu.solve(residual, correction);
@@ -109,7 +109,7 @@ std::vector<Direction> closed_by_constant_force(const Model& model, const contin
   }
   std::vector<Direction> found;
   for (const OpeningContact& contact : contacts)
-    if (std::abs(contact.force(model.harmonics, x)) * contact.normal.norm() > carries * f.norm())
+    if (std::abs(contact.force(model.harmonics, x)) * contact.normal.norm() > carries * f.stableNorm())
       found.push_back(contact.normal);
   return found;
 }

@@ -158,9 +158,9 @@ class Curves {
   }
 
   SpecialPoints seen_at(double over) {
-    if (!all_)
-      return special_points(way_, over, window_, kinds_, OtherBranches::from_ends,
-                            [this] { return go_on(); });
+    // Bifurcations of further branches are left to Branches::all.
+    const auto others = is_bifurcation(kinds_.front()) ? OtherBranches::none : OtherBranches::from_ends;
+    if (!all_) return special_points(way_, over, window_, kinds_, others, [this] { return go_on(); });
     return special_points_of_all(way_, over, window_, kinds_, *all_, unit_, [this](const Progress& now) {
       progress_.points = now.points;
       progress_.frequency = now.frequency;
@@ -184,13 +184,13 @@ class Curves {
         untraced_.push_back("at " + way_.name + " = " + to_digits(over, 8) + ", " + each);
   }
 
+  // The first of them: there may be some at each value of the parameter.
   void tell_leaving(const std::vector<LeavingBranch>& all, double over) {
-    std::vector<std::string> told;
-    for (const LeavingBranch& each : all)
-      told.push_back("the branch that leaves at the " + words_of(each.kind) + " at " +
-                     frequency_text(each.omega, unit_) +
-                     ": only one branch was looked at, all are with \"branches\": \"all\"");
-    tell_untraced(told, over);
+    if (all.empty()) return;
+    tell_untraced({"the branch that leaves at the " + words_of(all.front().kind) + " at " +
+                   frequency_text(all.front().omega, unit_) +
+                   ": only one branch was looked at (\"branches\" is \"one\")"},
+                  over);
   }
 
   void follow(const SpecialPoint& start, double share) {

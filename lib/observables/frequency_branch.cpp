@@ -29,7 +29,7 @@ constexpr double events_in_window = 20;            // the same, where only its e
 constexpr double step_between_events = 1.0 / 200;  // relative to the highest frequency
 constexpr double largest_frequency_step = 0.05;  // of the frequency, so that wide windows keep their low end
 constexpr double rejected_in_rounding = 0.5;     // steps, over points: where the branch lies in its rounding
-constexpr double most_larger = 1e8;              // than the first response
+constexpr double largest_beside_first = 1e8;     // of the response without elements to the first one
 constexpr int quick_dofs = 200;                  // up to here a problem is made in a tenth of a second
 
 // Beside a drifting degree of freedom: of contacts that open, if there are any.
@@ -259,7 +259,7 @@ double size_without_elements(const hbm::HbmProblem& problem, const FrequencyWind
   std::sort(sizes.begin(), sizes.end(),
             [](double a, double b) { return a < b || (!std::isnan(a) && std::isnan(b)); });
   const double size = sizes[1] / problem.displacement();
-  return std::isfinite(size) ? std::clamp(size, 1.0, most_larger) : 1.0;
+  return std::isnan(size) ? 1.0 : std::clamp(size, 1.0, largest_beside_first);
 }
 
 }  // namespace

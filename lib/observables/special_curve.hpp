@@ -155,6 +155,7 @@ class SpecialCurveTracer final : public CurveTracer {
   std::optional<CurveStart> to_crossing_corner(const CurveStart& at);
   std::optional<CurveStart> from_corner(const CurveStart& at, bool above) const;
   std::optional<CurveStart> seen_beyond(const CurveStart& at);
+  std::optional<CurveStart> seen_beyond(const CurveStart& at, OtherBranches others);
   std::optional<continuation::Vector> at_depth(const CurveStart& at, double depth, double reach) const;
   bool is_surpassed(const CurveStart& at) const;
 

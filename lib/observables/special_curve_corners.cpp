@@ -123,13 +123,22 @@ std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::to_crossing_co
 // beyond, or, if that has one less, has met its counterpart. So a curve passes kinks of any kind, such as a
 // new reversal while an element slips, near which slopes vary with the square root of the distance.
 std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::seen_beyond(const CurveStart& at) {
+  // One that is not on the branch from rest is looked for on others as well.
+  const bool several = may_have_several_responses(problem_->model());
+  if (const auto next = seen_beyond(at, OtherBranches::none); next || result_.end.vanishes || !several)
+    return next;
+  return seen_beyond(at, OtherBranches::from_ends);
+}
+
+std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::seen_beyond(const CurveStart& at,
+                                                                              OtherBranches others) {
   const Eigen::Index n = problem_->size();
   for (const double beside : seen_besides) {
     const auto seen = [&](int direction) {
       std::vector<SpecialPoint> near;
       const double over = at.over * (1 + direction * beside);
       if (!inside(over)) return near;
-      const auto response = special_points(way_, over, window_, {kind_.event}, OtherBranches::none, go_on_);
+      const auto response = special_points(way_, over, window_, {kind_.event}, others, go_on_);
       if (!response.failure.empty() || !response.unbounded.empty()) return near;
       for (const SpecialPoint& point : response.points)
         if (std::abs(point.x[n] / at.x[n] - 1) < in_sight) near.push_back(point);

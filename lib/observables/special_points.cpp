@@ -58,7 +58,8 @@ class SpecialPointSearch {
     }
     // Responses above the fold at which it turned back are on another branch, or reached from above.
     if (turned_back) add_from({{window_.upper}}, -1);
-    if (others == OtherBranches::from_ends && found_.failure.empty() && may_have_several_responses(*model_))
+    if (others == OtherBranches::from_ends && found_.failure.empty() && problem_ &&
+        may_have_several_responses(*model_))
       add_others_from_ends();
     return std::move(found_);
   }
@@ -148,8 +149,8 @@ class SpecialPointSearch {
     take(traced, before);
     if (watch.growth().unbounded)
       found_.unbounded = watch.growth().message;
-    else if (traced.branch.stop.reason != StopReason::boundary)
-      found_.failure = traced.branch.stop.message;
+    else if (traced.branch.stop.reason != StopReason::boundary && found_.failure.empty())
+      found_.failure = "from another response at its end: " + traced.branch.stop.message;
   }
 
   std::shared_ptr<const model::Model> model_;

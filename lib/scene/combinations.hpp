@@ -33,7 +33,7 @@ class Combinations {
 /// The default limit of the command.
 inline constexpr int usual_combinations = 100'000;
 
-/// Of more, the command draws no figure, whose data would stay in memory to the end.
+/// Of more, there are no figures, whose data would stay in memory to the end.
 inline constexpr int most_drawn = 1000;
 
 }  // namespace arcslip::scene

@@ -142,6 +142,7 @@ std::vector<results::FigureData> run_computation(const scene::Scene& scene, cons
                                                  const scene::RunOptions& options, std::size_t schema,
                                                  results::Sink& sink, const Computation& computation) {
   std::vector<std::unique_ptr<Items>> kept;
+  int taken = 0;
   scene::Scene with_order = scene;
   const auto take = [&](Computed computed) {
     with_order.harmonics = computed.harmonics;
@@ -153,7 +154,10 @@ std::vector<results::FigureData> run_computation(const scene::Scene& scene, cons
       if (!beyond.empty()) result.end.doubt += (result.end.doubt.empty() ? "" : "; ") + beyond;
       results::hand(result, schema, sink);
     }
-    if (options.figures) kept.push_back(std::move(computed.items));
+    if (++taken > scene::most_drawn)
+      kept.clear();
+    else if (options.figures)
+      kept.push_back(std::move(computed.items));
   };
   for_each_combination(
       scene, scene::Combinations(study), options.threads,
@@ -161,7 +165,8 @@ std::vector<results::FigureData> run_computation(const scene::Scene& scene, cons
         return compute(computation, at, progress);
       },
       options.progress, take);
-  return options.figures ? computation.figures(std::move(kept)) : std::vector<results::FigureData>();
+  if (!options.figures || taken > scene::most_drawn) return {};
+  return computation.figures(std::move(kept));
 }
 
 }  // namespace arcslip::studies

@@ -127,6 +127,7 @@ class Search {
   PeakWork work_elsewhere_{};
   std::vector<Evaluation> minima_{};        // where the searches from several designs led, in their order
   int to_no_minimum_ = 0;                   // of them
+  bool led_on_from_none_ = false;           // the search went on from where one of these ended
   std::optional<Evaluation> ended_near_{};  // the one of them next to which the current search was ended
   bool ended_ = false;
   bool is_part_ = false;  // of another search, which checks the window itself

@@ -223,9 +223,9 @@ void Search::count_starts() {
     starts.to_optimum += each.amplitude <= (1 + same_minimum) * result_.amplitude;
     starts.highest = std::max(starts.highest, each.amplitude);
   }
-  if (starts.to_optimum == 0) {  // of the start from whose end the search went on lower
+  if (starts.to_optimum == 0) {  // the search went on lower from where one of them ended
     starts.to_optimum = 1;
-    starts.to_none = std::min(starts.to_none, starts.count - 1);
+    if (led_on_from_none_) --starts.to_none;
   }
   result_.starts = starts;
 }
@@ -253,6 +253,7 @@ bool Search::look_elsewhere(bool at_minimum) {
     if (!found.feasible || found.design.empty() || !(found.amplitude < least)) continue;
     least = found.amplitude;
     lower = found.design;
+    led_on_from_none_ = found.status != Status::complete && !ended_near_;
   }
   if (lower.empty() || watch_.stopped()) return false;
   designs_.evaluate(lower, true);

@@ -53,7 +53,7 @@ inline void compare(const std::shared_ptr<const model::Model>& model, const elem
       ++to.flagged;
       continue;
     }
-    CHECK(point.truncation_estimate < point.amplitude);
+    CHECK(point.truncation_estimate <= 0.1 * point.amplitude * (1 + 1e-9));
     const auto exact = amplitude(model, kept, point);
     if (!exact) continue;
     const double error = std::abs(point.amplitude - *exact);

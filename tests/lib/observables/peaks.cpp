@@ -388,7 +388,6 @@ TEST_CASE(
 TEST_CASE("in a window that begins within a hysteresis the peaks of the upper responses have their curve") {
   // With one harmonic, x'' + c x' + x + k x^3 = f cos wt has its peak a where w^2 = 1 + 3/4 k a^2 - c^2/2 and
   // (c a)^2 (w^2 + c^2/4) = f^2.
-  // a^2.
   const double c = 0.05, k = 0.1;
   const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],

@@ -188,7 +188,7 @@ TEST_CASE("beyond the fold of a branch that turns back to a pole, peaks are foun
   });
   REQUIRE(peak != branches[1].events.end());
   const auto curves = observables::resonance_peaks(s, {"f.cosine", 0.1, 0.12, 0.2, 2});
-  REQUIRE(curves.size() == 2);  // that of y at the fold of x, and
+  REQUIRE(curves.size() == 2);  // the other is where x has its fold
   const auto& curve = curves[0].points[0].omega > 1 ? curves[0] : curves[1];
   CHECK(curve.points.front().over == 0.1);
   CHECK(curve.points.back().over == 0.12);

@@ -46,6 +46,7 @@ inline void check(const Json& value, const Right& right, const Json& estimate = 
   const double error = estimate.is_number() ? estimate.get<double>() : 0;
   REQUIRE(value.is_number());
   const double found = value;
+  REQUIRE(error <= 0.01 * std::abs(right.value) + right.half_digit);
   CAPTURE(found, right.value, right.half_digit, error);
   CHECK(std::abs(found - right.value) <= 1.0001 * right.half_digit + 2 * error);
 }

@@ -23,6 +23,7 @@
 using namespace arcslip;
 using Json = nlohmann::json;
 
+namespace two_mass_modes {
 namespace {
 
 constexpr double wanted = 1e-4;
@@ -90,7 +91,8 @@ struct FreeMotion {
 
 /// Of amplitude A of x: the state at rest of x and its negative after a half. Nothing: Newton's method
 /// failed.
-std::optional<FreeMotion> shot(const Pair& of, double A, const FreeMotion& guess, int steps = 10'000) {
+std::optional<FreeMotion> shot(const Pair& of, double A, const FreeMotion& guess) {
+  constexpr int steps = 10'000;  // of a half
   const double step = std::numbers::pi / guess.omega / steps;
   Eigen::Vector3d z(guess.y, guess.vy / guess.omega,
                     2 * guess.damping_ratio);  // y and y'/omega over A, g/omega
@@ -223,3 +225,5 @@ TEST_CASE(
   CHECK(2 * complete > count);
   CHECK(motions > 10 * static_cast<int>(complete));
 }
+
+}  // namespace two_mass_modes
