@@ -62,6 +62,13 @@ scene::Scene structure(Random& random, int masses, bool second_force, Element el
   return s;
 }
 
+std::string opening_contact(Random& random) {
+  return field("tangential_stiffness", random.logarithmic(0.1, 3)) +
+         field("normal_stiffness", random.logarithmic(0.1, 1)) +
+         field("friction_coefficient", random.between(0.2, 0.8)) +
+         field("normal_load", random.logarithmic(0.1, 3));
+}
+
 struct Law {
   std::string name;
   int least_masses;
@@ -85,18 +92,12 @@ const std::vector<Law>& laws() {
       {"contact_2d", 2, true, true,
        [](Random& random) {
          return R"("type": "contact_2d", "tangential": {"at": "x"}, "normal": {"at": "y"})" +
-                field("tangential_stiffness", random.logarithmic(0.1, 3)) +
-                field("normal_stiffness", random.logarithmic(0.1, 1)) +
-                field("friction_coefficient", random.between(0.2, 0.8)) +
-                field("normal_load", random.logarithmic(0.1, 3));
+                opening_contact(random);
        }},
       {"contact_3d", 3, true, false,
        [](Random& random) {
          return R"("type": "contact_3d", "tangential_1": {"at": "x"}, "tangential_2": {"at": "y"}, "normal": {"at": "z"})" +
-                field("tangential_stiffness", random.logarithmic(0.1, 3)) +
-                field("normal_stiffness", random.logarithmic(0.1, 1)) +
-                field("friction_coefficient", random.between(0.2, 0.8)) +
-                field("normal_load", random.logarithmic(0.1, 3));
+                opening_contact(random);
        }},
       {"iwan", 1, false, false,
        [](Random& random) {

@@ -3,11 +3,8 @@
 #include "catch.hpp"
 #include "random.hpp"
 
-#include "lib/hbm/scenes.hpp"
+#include "lib/studies/first_mode.hpp"
 #include "lib/studies/mode_accuracy.hpp"
-
-#include <arcslip/results/json_writer.hpp>
-#include <arcslip/studies/catalogue.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +18,8 @@
 
 using namespace arcslip;
 using Json = nlohmann::json;
+using mode_accuracy::first_mode;
+using mode_accuracy::wanted;
 
 namespace {
 
@@ -72,23 +71,15 @@ struct Oscillator {
   }
 };
 
-constexpr double wanted = 1e-4;
-
 /// Results of modes of one mass, with these elements.
 Json modes_of(double m, double k, double c, const std::string& elements, double from, double to) {
   std::ostringstream text;
   text.precision(17);
-  text << R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {"dofs": ["x"],
-    "masses": [{"name": "m", "at": "x", "value": )"
-       << m << R"(}], "springs": [{"name": "k", "at": "x", "value": )" << k
+  text << R"("structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": )" << m
+       << R"(}], "springs": [{"name": "k", "at": "x", "value": )" << k
        << R"(}], "dampers": [{"name": "c", "at": "x", "value": )" << c << R"(}]}, "elements": [)" << elements
-       << R"(], "excitation": [{"name": "f", "at": "x", "cosine": 1}], "response": {"at": "x"},
-    "harmonics": {"accuracy": )"
-       << wanted << R"(}, "studies": [{"kind": "modes", "mode": 1, "amplitude": [)" << from << ", " << to
-       << "]}]}";
-  std::ostringstream json;
-  results::write_json(json, studies::run(scenes::parse(text.str())));
-  return Json::parse(json.str())["branches"][0];
+       << "]";
+  return first_mode(text.str(), from, to);
 }
 
 std::string cubic_spring(double stiffness) {

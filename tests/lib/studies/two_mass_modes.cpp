@@ -2,11 +2,8 @@
 #include "catch.hpp"
 #include "random.hpp"
 
-#include "lib/hbm/scenes.hpp"
+#include "lib/studies/first_mode.hpp"
 #include "lib/studies/mode_accuracy.hpp"
-
-#include <arcslip/results/json_writer.hpp>
-#include <arcslip/studies/catalogue.hpp>
 
 #include <Eigen/LU>
 #include <nlohmann/json.hpp>
@@ -22,11 +19,10 @@
 
 using namespace arcslip;
 using Json = nlohmann::json;
+using mode_accuracy::wanted;
 
 namespace two_mass_modes {
 namespace {
-
-constexpr double wanted = 1e-4;
 
 /// x on the ground, with a cubic spring b and a slider of stiffness d and limit F, and y on x:
 ///   m1 x'' + (c1 - g m1) x' + c2 (x' - y') + k1 x + k2 (x - y) + b x^3 + f = 0
@@ -138,10 +134,10 @@ FreeMotion linear_mode(const Pair& of) {
   return {std::sqrt(square), 0, (of.k1 + of.d + of.k2 - of.m1 * square) / of.k2, 0};
 }
 
-Json first_mode(const Pair& of, double from, double to) {
+Json mode_of(const Pair& of, double from, double to) {
   std::ostringstream text;
   text.precision(17);
-  text << R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {"dofs": ["x", "y"],
+  text << R"("structure": {"dofs": ["x", "y"],
     "masses": [{"name": "m1", "at": "x", "value": )"
        << of.m1 << R"(}, {"name": "m2", "at": "y", "value": )" << of.m2
        << R"(}], "springs": [{"name": "k1", "at": "x", "value": )" << of.k1
@@ -150,14 +146,8 @@ Json first_mode(const Pair& of, double from, double to) {
        << R"(}, {"name": "c2", "between": ["x", "y"], "value": )" << of.c2
        << R"(}]}, "elements": [{"name": "b", "type": "cubic_spring", "at": "x", "stiffness": )" << of.b
        << R"(}, {"name": "s", "type": "jenkins", "at": "x", "stiffness": )" << of.d
-       << R"(, "friction_coefficient": 1, "normal_load": )" << of.F
-       << R"(}], "excitation": [{"name": "f", "at": "x", "cosine": 1}], "response": {"at": "x"},
-    "harmonics": {"accuracy": )"
-       << wanted << R"(}, "studies": [{"kind": "modes", "mode": 1, "amplitude": [)" << from << ", " << to
-       << "]}]}";
-  std::ostringstream json;
-  results::write_json(json, studies::run(scenes::parse(text.str())));
-  return Json::parse(json.str())["branches"][0];
+       << R"(, "friction_coefficient": 1, "normal_load": )" << of.F << "}]";
+  return mode_accuracy::first_mode(text.str(), from, to);
 }
 
 }  // namespace
@@ -187,7 +177,7 @@ TEST_CASE(
     if (random.one_in(2)) of.b = of.k1 * random.logarithmic(1e-4, 0.1);
     of.d = of.k1 * random.logarithmic(0.03, 1);
     of.F = of.d * random.logarithmic(0.03, 3);  // slips from an amplitude of about 1 on
-    const Json branch = first_mode(of, 1e-2, 1e2);
+    const Json branch = mode_of(of, 1e-2, 1e2);
     CAPTURE(seed, of.m1, of.k1, of.c1, of.m2, of.k2, of.c2, of.b, of.d, of.F, branch["accuracy"].dump(),
             branch["stop"].dump());
     // At an internal resonance the mode folds.
