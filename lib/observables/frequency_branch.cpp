@@ -58,7 +58,8 @@ std::string doubt_of_rounding(const model::Model& model, const Vector& p,
                               const continuation::Counts& counts) {
   const bool in_rounding =
       static_cast<double>(counts.rejected_steps) > rejected_in_rounding * static_cast<double>(counts.points);
-  return in_rounding ? model::stiffness_apart(model, p) : "";
+  const std::string apart = in_rounding ? model::stiffness_apart(model, p) : "";
+  return apart.empty() ? "" : "dominated by rounding errors, so that its results lose digits: " + apart;
 }
 
 namespace {

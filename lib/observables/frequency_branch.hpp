@@ -58,8 +58,8 @@ std::shared_ptr<const hbm::HbmProblem> problem_of(const ResponseBranch& branch,
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
                              double frequency_scale, const GoOn& go_on = {});
 
-/// For a branch dominated by rounding errors, with as many rejected as accepted steps: the stiffnesses with
-/// too large a ratio. Empty: no doubt. p: of the branch.
+/// For a branch dominated by rounding errors, with as many rejected as accepted steps: that it is, and the
+/// stiffnesses with too large a ratio. Empty: no doubt. p: of the branch.
 std::string doubt_of_rounding(const model::Model& model, const continuation::Vector& p,
                               const continuation::Counts& counts);
 

@@ -70,7 +70,8 @@ class Traces {
     // A branch that turned back is complete if others cover the range beyond.
     for (ResponseBranch& branch : branches)
       if (!far_ends.empty() && branch.stop.reason == reasons::boundary) branch.status = Status::complete;
-    if (!starts.doubt.empty()) branches.front().untraced.push_back(starts.doubt);
+    if (std::string& doubt = branches.front().doubt; !starts.doubt.empty())
+      doubt += (doubt.empty() ? "" : "; ") + starts.doubt;
     return branches;
   }
 

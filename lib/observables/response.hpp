@@ -226,12 +226,12 @@ struct ResponseBranch {
   std::vector<ResponseEvent> events;
   std::vector<ResponsePoint> marks{};  // of a mode: amplitude, frequency and damping ratio at amplitudes that
                                        // are the same for all orders
-  std::string doubt;                   // why its accuracy is doubtful; empty: it is not
+  std::string doubt;                   // why it is not accurate, or others may be missing; empty: neither
   std::string no_peak{};               // where a complete frequency response has none: where resonances lie
   std::string unknown_stability{};     // why its points have no stability, where it is requested
   std::optional<LookedAt> found_none{};  // in place of points, where a search has come to its end
-  std::vector<std::string> untraced{};   // branches that leave it, or the responses looked at, and were not
-                                         // followed, or that may be missing, and why
+  std::vector<std::string>
+      untraced{};  // branches that leave it, or the responses looked at, and were not followed, and why
   SolverSummary solver;
 };
 

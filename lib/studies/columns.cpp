@@ -262,8 +262,7 @@ std::string untraced(const observables::ResponseBranch& branch) {
 }
 
 std::string doubt_of(const observables::ResponseBranch& branch) {
-  if (!branch.doubt.empty())
-    return "dominated by rounding errors, so that its results lose digits: " + branch.doubt;
+  if (!branch.doubt.empty()) return branch.doubt;
   const auto stops = [](const auto& point) { return !point.stops.empty(); };
   const auto first = std::find_if(branch.points.begin(), branch.points.end(), stops);
   if (first == branch.points.end())

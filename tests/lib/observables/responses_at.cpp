@@ -10,6 +10,7 @@
 #include <arcslip/observables/responses_at.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/studies/catalogue.hpp>
+#include <arcslip/studies/columns.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -84,9 +85,10 @@ TEST_CASE(
                {.over = "f.cosine", .from = force, .to = 1.01 * force, .frequency = frequency})
         .front();
   };
-  CHECK(traced(0.1, 0.2, 1.2).untraced.empty());
-  REQUIRE(traced(-0.5, 0.3, 0.5).untraced.size() == 1);
-  CHECK(traced(-0.5, 0.3, 0.5).untraced[0].starts_with("other responses may be missing, since the branch"));
+  CHECK(traced(0.1, 0.2, 1.2).doubt.empty());
+  const auto doubtful = traced(-0.5, 0.3, 0.5);
+  CHECK(doubtful.doubt.starts_with("other responses may be missing, since the branch"));
+  CHECK(studies::doubt_of(doubtful) == doubtful.doubt);
 }
 
 TEST_CASE("between folds at kinks a response is found for each passage of the frequency response") {
