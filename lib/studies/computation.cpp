@@ -102,7 +102,8 @@ Computed compute(const Computation& of, const Case& at, const results::ProgressC
 }
 
 using Compute = std::function<Computed(const Case& at, const results::ProgressCallback& progress)>;
-using Take = std::function<void(Computed computed)>;
+/// Returns false where a result says that it was stopped.
+using Take = std::function<bool(Computed computed)>;
 
 void for_each_combination(const scene::Scene& scene, const scene::Combinations& all, int threads,
                           const Compute& compute_one, const results::ProgressCallback& progress,
@@ -119,7 +120,15 @@ void for_each_combination(const scene::Scene& scene, const scene::Combinations& 
     first.end(k);
     return computed;
   };
-  in_order(all.size(), threads, first.goes_on, make, take);
+  std::size_t taken = 0;
+  bool whole = true;
+  in_order(all.size(), threads, first.goes_on, make, [&](Computed computed) {
+    ++taken;
+    whole = take(std::move(computed));
+  });
+  // A stop that is heard at the last point of a combination leaves it complete: the next one then says that
+  // it was stopped.
+  if (!first.goes_on && whole && taken < all.size()) take(make(taken));
 }
 
 }  // namespace
@@ -134,7 +143,11 @@ std::vector<std::unique_ptr<Items>> items_of_each(
       [&](const Case& at, const results::ProgressCallback& tell) {
         return Computed{compute(at, tell), {}, {}};
       },
-      progress, [&](Computed computed) { items.push_back(std::move(computed.items)); });
+      progress,
+      [&](Computed computed) {
+        items.push_back(std::move(computed.items));
+        return false;
+      });
   return items;
 }
 
@@ -147,17 +160,20 @@ std::vector<results::FigureData> run_computation(const scene::Scene& scene, cons
   const auto take = [&](Computed computed) {
     with_order.harmonics = computed.harmonics;
     const std::string beyond = scene::beyond_reduction(with_order, study);
+    bool whole = true;
     for (std::size_t i = 0; i < computed.items->size(); ++i) {
       computed.items->put_study(i, study);
       results::Result result = computation.result(*computed.items, i);
       if (computed.selection) computed.selection->tell(result.end);
       if (!beyond.empty()) result.end.doubt += (result.end.doubt.empty() ? "" : "; ") + beyond;
+      whole = whole && result.end.status != results::Status::stopped;
       results::hand(result, schema, sink);
     }
     if (++taken > scene::most_drawn)
       kept.clear();
     else if (options.figures)
       kept.push_back(std::move(computed.items));
+    return whole;
   };
   for_each_combination(
       scene, scene::Combinations(study), options.threads,

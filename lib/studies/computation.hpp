@@ -66,9 +66,10 @@ std::vector<std::unique_ptr<Items>> items_of_each(
 
 /// StudyType::run(): up to options.threads combinations are computed at the same time, with the threads that
 /// are left for their elements, and results are handed to the sink in the order of the combinations, by this
-/// thread. After a stop by options.progress no further combination is started; it is called by one thread at
-/// a time, and told of the first combination that is being computed. Items are kept only if figures are
-/// requested, of up to scene::most_drawn combinations; of more, there is none.
+/// thread. After a stop by options.progress no further combination is started, unless all that were are
+/// complete: then the next one is, whose result says that it was stopped. options.progress is called by one
+/// thread at a time, and told of the first combination that is being computed. Items are kept only if figures
+/// are requested, of up to scene::most_drawn combinations; of more, there is none.
 std::vector<results::FigureData> run_computation(const scene::Scene& scene, const scene::Study& study,
                                                  const scene::RunOptions& options, std::size_t schema,
                                                  results::Sink& sink, const Computation& computation);
