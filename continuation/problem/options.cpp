@@ -51,6 +51,8 @@ void check(const Options& o) {
   require(o.newton.rounding_level >= o.newton.tolerance, "newton.rounding_level", o.newton.rounding_level,
           ">= newton.tolerance");
   require(o.newton.iterations >= 2, "newton.iterations", o.newton.iterations, ">= 2");
+  require(o.newton.start_iterations >= 2, "newton.start_iterations", o.newton.start_iterations, ">= 2");
+  require(o.newton.transient_steps >= 0, "newton.transient_steps", o.newton.transient_steps, ">= 0");
   require(o.newton.chord_contraction >= 0 && o.newton.chord_contraction < 1, "newton.chord_contraction",
           o.newton.chord_contraction, "in [0, 1)");
   require(o.step.initial >= 0, "step.initial", o.step.initial, ">= 0");

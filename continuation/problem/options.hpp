@@ -14,6 +14,8 @@ struct NewtonOptions {
   double tolerance = 1e-9;       // of the last correction, relative to |u| in scales; the error is its square
   double rounding_level = 1e-7;  // corrections that stagnate below are accepted as rounding; >= tolerance
   int iterations = 8;            // maximum
+  int start_iterations = 30;     // maximum from a start without a tangent, damped, and once more undamped
+  int transient_steps = 100;     // maximum of u' = F and of u' = -F, where these do not converge; 0: none
   bool chord = true;             // start with the factors of the previous point
   double chord_contraction = 0.3;  // and keep them while corrections contract at least so fast; in [0, 1)
 };

@@ -263,8 +263,31 @@ double Corrector::distance_from_branch(const Vector& v) {
   return std::sqrt(dot(dv_, dv_));
 }
 
+// The first of the points v + dv, v + dv / 2, ... that passes the natural test becomes trial_. False: none.
+bool Corrector::damp(const Vector& v, double now) {
+  for (double damping = 1; damping >= smallest_damping; damping /= 2) {
+    trial_ = v + damping * dv_;
+    if (!evaluate(trial_, Needs::residual)) continue;
+    solve(next_);
+    if (size(next_, v) <= (1 - damping / 4) * now) return true;
+  }
+  return false;
+}
+
 Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
   Correction result;
+  if (keep_factors && options_.chord && problem_.chord_pays() && !chord(v, result) && !result.evaluated)
+    return result;
+  return newton(v, row, options_.iterations, Damping::natural, result);
+}
+
+Correction Corrector::newton(Vector& v, const Vector& row, int iterations, Damping damping) {
+  return newton(v, row, iterations, damping, {});
+}
+
+// result: that of the chord steps before, if any.
+Correction Corrector::newton(Vector& v, const Vector& row, int iterations, Damping damping,
+                             Correction result) {
   Vector across;  // v beyond a kink that the last correction crossed: the result if there is no better one
   const auto failed = [&]() -> Correction {
     if (across.size() == 0) return result;
@@ -274,13 +297,11 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
     result.singular = result.linear = false;
     return result;
   };
-  double before = 0;                          // size of the correction that led to v
+  const bool is_damped = damping == Damping::natural;
+  double before = result.last;                // size of the correction that led to v
   std::optional<std::uint64_t> piece_before;  // of F, where that began, if it was small
-  if (keep_factors && options_.chord && problem_.chord_pays()) {
-    if (!chord(v, result) && !result.evaluated) return result;
-    before = result.last;
-  }
-  for (int k = 0; k < options_.iterations; ++k, ++result.iterations) {
+  for (int k = 0; k < iterations; ++k, ++result.iterations) {
+    if (is_damped && result.linear && k >= options_.iterations) return failed();
     if (!evaluate(v, Needs::jacobian)) {
       result.evaluated = false;
       return failed();
@@ -300,6 +321,7 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
     if (now > options_.tolerance && now <= options_.rounding_level) piece = piece_of_residual();
     const bool stagnates = piece && piece == piece_before && now > 0.5 * before;
     piece_before = piece;
+    if (now <= linear_share * before) result.linear = false;
     if (now <= options_.tolerance || stagnates) {
       // Across a kink the equations are others, and the branch may be far from a solution of these.
       const bool may_cross =
@@ -316,22 +338,15 @@ Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
       return result;
     }
     if (!std::isfinite(now)) return failed();
-    if (k > 0 && before > 0 && before < undamped && now > linear_share * before) result.linear = true;
-    if (now < undamped) {
-      if (k > 0 && before > 0 && before < undamped && now > undamped_divergence * before) return failed();
+    result.linear = k > 0 && before > 0 && before < undamped && now > linear_share * before;
+    if (now < undamped || !is_damped) {
+      if (is_damped && k > 0 && before > 0 && before < undamped && now > undamped_divergence * before)
+        return failed();
       v += dv_;
       before = now;
       continue;
     }
-    double damping = 1, next = 0;
-    for (;; damping /= 2) {
-      if (damping < smallest_damping) return failed();
-      trial_ = v + damping * dv_;
-      if (!evaluate(trial_, Needs::residual)) continue;
-      solve(next_);
-      next = size(next_, trial_);
-      if (next <= (1 - damping / 4) * now) break;
-    }
+    if (!damp(v, now)) return failed();
     v = trial_;
     before = 0;
   }

@@ -14,7 +14,8 @@
 // Large corrections are damped by the natural test of Deuflhard (Newton Methods for Nonlinear Problems, 2004,
 // chapter 3): |B^-1 F(v + lambda dv)| must fall below (1 - lambda/4) |dv|. It is invariant under scaling of
 // the equations and never compares Jacobians across a kink, so that for piecewise smooth F the method is a
-// safeguarded semismooth Newton method.
+// safeguarded semismooth Newton method. Both sizes are relative to |u| at v, not at the trial point, so that
+// a solution u = 0 can be reached.
 
 #include <arcslip/continuation/events/scratch.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
@@ -55,6 +56,9 @@ struct FactorMemory {
   double contraction = 1;
 };
 
+/// Of large corrections: the natural test, or none.
+enum class Damping { natural, none };
+
 /// Corrector with its evaluator, factors and buffers. correct() and linearize() do not allocate.
 class Corrector {
  public:
@@ -67,6 +71,10 @@ class Corrector {
   /// v: n + 1, the prediction, becomes the solution; the factors become those there. row: n + 1.
   /// keep_factors: the present factors are those of a nearby point with a similar row, and are tried first.
   Correction correct(Vector& v, const Vector& row, bool keep_factors);
+
+  /// Newton's method alone, without chord steps, with at most so many iterations. It ends after
+  /// NewtonOptions::iterations of them where it converges linearly only.
+  Correction newton(Vector& v, const Vector& row, int iterations, Damping damping);
 
   /// |B^-1 F(v)| in scales with the present factors: the distance of v from the branch, to first order. NaN
   /// if F cannot be evaluated.
@@ -117,6 +125,8 @@ class Corrector {
   void solve(Vector& dv) const;           // dv = -B^-1 (F, 0)
   void back_substitute(Vector& x) const;  // x = B^-1 x; not finite where the linear solver throws
   bool chord(Vector& v, Correction& result);
+  Correction newton(Vector& v, const Vector& row, int iterations, Damping damping, Correction result);
+  bool damp(const Vector& v, double now);
   std::optional<std::uint64_t> piece_of_residual() const;
 
   const Problem& problem_;

@@ -3,6 +3,7 @@
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/continuation/special_points/inner_problem.hpp>
 #include <arcslip/continuation/special_points/reduction.hpp>
+#include <arcslip/continuation/tracing/first_point.hpp>
 #include <arcslip/continuation/tracing/start.hpp>
 #include <arcslip/continuation/tracing/tracer_impl.hpp>
 
@@ -130,7 +131,9 @@ bool Tracer::Impl::begin() {
   const bool given = s_.here.tangent.size() != 0;
   if (!given) s_.here.tangent = Vector::Unit(n_ + 1, n_);
   main_.border_row(s_.here.tangent, row_);
-  const Correction correction = main_.correct(s_.here.v, row_, false);
+  // A start with a tangent is a prediction; without, it may be far from the branch.
+  const Correction correction = given ? main_.correct(s_.here.v, row_, false)
+                                      : first_point(*problem_, main_, options_, row_, s_.here.v);
   if (correction.singular)
     return end(StopReason::start_failed, correction.last, options_.newton.tolerance,
                "the linearization at the start is singular" + because(main_.failure()) +

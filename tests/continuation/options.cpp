@@ -19,6 +19,8 @@ TEST_CASE("every option out of bounds is refused with its value and its bound") 
       {[](Options& o) { o.newton.tolerance = 0; }, "newton.tolerance is 0, must be > 0"},
       {[](Options& o) { o.newton.rounding_level = 1e-12; }, "newton.rounding_level"},
       {[](Options& o) { o.newton.iterations = 1; }, "newton.iterations is 1, must be >= 2"},
+      {[](Options& o) { o.newton.start_iterations = 1; }, "newton.start_iterations is 1, must be >= 2"},
+      {[](Options& o) { o.newton.transient_steps = -1; }, "newton.transient_steps is -1, must be >= 0"},
       {[](Options& o) { o.newton.chord_contraction = 1; }, "newton.chord_contraction is 1"},
       {[](Options& o) { o.step.initial = -1; }, "step.initial"},
       {[](Options& o) { o.step.smallest = 0; }, "step.smallest"},

@@ -50,6 +50,7 @@ TEST_CASE("start_failed: no solution near the start is said, and there are no po
   const Branch branch =
       trace(one_equation([](In u, In, Out F) { F[0] = 1 + u[0] * u[0]; }), at(0.5, 0), window(0, 1));
   CHECK(branch.stop.reason == StopReason::start_failed);
+  CHECK(branch.stop.value > branch.stop.limit);
   CHECK(branch.points.empty());
 }
 
