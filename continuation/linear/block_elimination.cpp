@@ -15,18 +15,27 @@
 // e/s), down to the effect of rounding of size e in f: e (1 + e/s), times the condition number of the
 // bordered matrix if s < e. The residual is computed with J itself, so that E has no effect on the result.
 // Iterative solvers, with e their tolerance, take a few more sweeps.
+//
+// For the same reason a J that is singular to the last bit, or which its solver refuses, throws at or does
+// not really solve with, is replaced by one next to it (beside_singular.hpp): E is then larger than rounding,
+// and refinement, which goes by J, reduces the error by |E| in each sweep.
 
+#include <arcslip/continuation/linear/beside_singular.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 #include <arcslip/continuation/linear/refinement.hpp>
 
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <stdexcept>
 
 namespace arcslip::continuation {
 namespace {
+
+// Of a generic right-hand side, left by a solution: more, and the bordered matrix is singular itself.
+constexpr double largest_residual_beside = 1e-5;
 
 class BlockElimination final : public LinearSolver {
  public:
@@ -39,23 +48,32 @@ class BlockElimination final : public LinearSolver {
   const char* name() const override { return name_.c_str(); }
 
   bool factorize(const Jacobian& J, const Borders& borders) override {
-    ready_ = false;
+    ready_ = beside_tried_ = false;
     J_ = J;  // a copy: refinement needs it after the evaluator has moved
     borders_ = borders;
     const Eigen::Index n = borders.columns.rows(), m = borders.width();
     resize(n, m);
     if (!borders.columns.allFinite() || !borders.rows.allFinite() || !borders.corner.allFinite())
       return false;
-    if (!measure_rows() || !plain_->prepare(J_)) return false;
-    for (Eigen::Index i = 0; i < m; ++i)
-      if (!plain_->solve(borders_.columns.col(i), V_.col(i)) || !V_.col(i).allFinite()) return false;
-    S_.noalias() = borders_.corner - borders_.rows.transpose() * V_;
-    if (m > 0) lu_.factorize(S_);
-    return ready_ = S_.allFinite() && take_sign();
+    if (!measure_rows()) return false;
+    std::exception_ptr thrown;
+    try {
+      if (takes(J_)) return ready_ = eliminate_columns();
+    } catch (const std::exception&) {
+      thrown = std::current_exception();
+    }
+    if (works_beside()) return true;
+    if (thrown) std::rethrow_exception(thrown);
+    return false;
   }
 
   void solve(Out x) const override {
-    if (!ready_ || !refine(x, false)) x.setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (ready_ && refine(x, false)) return;
+    if (ready_ && !beside_tried_) {
+      if (works_beside() && refine(x, false)) return;
+      if (!ready_) returns_to_J();
+    }
+    x.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
 
   bool solve_transposed(Out x) const override {
@@ -77,11 +95,68 @@ class BlockElimination final : public LinearSolver {
     refinement_.resize(n + m);
     row_sums_.resize(n + m);
     column_sums_.resize(n + m);
+    for (Vector* v : {&generic_, &solution_, &image_}) v->resize(n + m);
     w_.resize(n);
     y_.resize(m);
   }
 
-  bool take_sign() {
+  // Whether the solver solves with this J for all columns C.
+  bool takes(const Jacobian& J) const {
+    if (!plain_->prepare(J)) return false;
+    for (Eigen::Index i = 0; i < V_.cols(); ++i)
+      if (!plain_->solve(borders_.columns.col(i), V_.col(i)) || !V_.col(i).allFinite()) return false;
+    return true;
+  }
+
+  bool eliminate_columns() const {
+    S_.noalias() = borders_.corner - borders_.rows.transpose() * V_;
+    if (V_.cols() > 0) lu_.factorize(S_);
+    return S_.allFinite() && take_sign();
+  }
+
+  // The same with a J next to that which the solver refuses. Of an operator there is none: the factors stay.
+  bool works_beside() const {
+    beside_tried_ = true;
+    for (const Nudge& nudge : nudges) {
+      try {
+        if (!nudged(J_, nudge, beside_)) return false;
+        ready_ = takes(beside_) && eliminate_columns();
+        if (ready_ && is_regular()) return true;
+      } catch (const std::exception&) {  // it throws here as well
+      }
+      ready_ = false;
+    }
+    return false;
+  }
+
+  // After a solve that failed next to J, too.
+  void returns_to_J() const {
+    try {
+      ready_ = takes(J_) && eliminate_columns();
+    } catch (const std::exception&) {
+    }
+  }
+
+  // Whether M x = b has a solution for a generic b: next to a singular J anything can be eliminated.
+  bool is_regular() const {
+    for (Eigen::Index i = 0; i < generic_.size(); ++i) {
+      const double factor = 1 + 0.5 * std::sin(1 + 0.7 * static_cast<double>(i) * static_cast<double>(i));
+      generic_[i] = generic_sign(i) * factor * (row_sums_[i] > 0 ? row_sums_[i] : 1);
+    }
+    solution_ = generic_;
+    if (!refine(solution_, false)) return false;
+    const Eigen::Index n = w_.size();
+    apply(J_, solution_.head(n), image_.head(n));
+    add_borders(solution_, false, image_);
+    image_ = (image_ - generic_).cwiseQuotient(generic_);
+    return image_.lpNorm<Eigen::Infinity>() <= largest_residual_beside;
+  }
+
+  static double generic_sign(Eigen::Index i) {
+    return (static_cast<std::uint32_t>(i) * 2654435769u) >> 31 ? 1 : -1;
+  }
+
+  bool take_sign() const {
     sign_of_S_ = 1;
     if (borders_.width() == 0) return true;
     bool odd = lu_.permutation_sign() < 0;
@@ -164,8 +239,7 @@ class BlockElimination final : public LinearSolver {
         }
     } else {
       // For an operator, from its product with a generic vector.
-      for (Eigen::Index i = 0; i < n; ++i)
-        w_[i] = (static_cast<std::uint32_t>(i) * 2654435769u) >> 31 ? 1 : -1;
+      for (Eigen::Index i = 0; i < n; ++i) w_[i] = generic_sign(i);
       std::get<const Operator*>(J_)->apply(w_, row_sums_.head(n));
       row_sums_.head(n).setConstant(row_sums_.head(n).lpNorm<Eigen::Infinity>());
       column_sums_.head(n) = row_sums_.head(n);
@@ -186,13 +260,15 @@ class BlockElimination final : public LinearSolver {
   std::string name_;
   Jacobian J_;
   Borders borders_{0, 0};
-  Matrix V_, S_;
-  LU<double> lu_;
-  mutable Refinement refinement_;
-  mutable Vector w_, y_;
   Vector row_sums_, column_sums_;
-  bool ready_ = false;
-  int sign_of_S_ = 1;
+  // Of J, or of what is next to it, where a solve is the first to tell that J is singular.
+  mutable Jacobian beside_;
+  mutable Matrix V_, S_;
+  mutable LU<double> lu_;
+  mutable bool ready_ = false, beside_tried_ = false;
+  mutable int sign_of_S_ = 1;
+  mutable Refinement refinement_;
+  mutable Vector w_, y_, generic_, solution_, image_;
 };
 
 }  // namespace

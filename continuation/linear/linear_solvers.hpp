@@ -15,7 +15,8 @@ class PlainSolver {
  public:
   virtual ~PlainSolver() = default;
   virtual const char* name() const = 0;
-  /// Prepares for solves with J. False on failure.
+  /// Prepares for solves with J. False on failure, as where J is singular: a matrix next to it is then
+  /// prepared, of the same kind and pattern. It may also throw.
   virtual bool prepare(const Jacobian& J) = 0;
   /// x = J^-1 b. False if not converged.
   virtual bool solve(In b, Out x) const = 0;
@@ -37,7 +38,8 @@ std::unique_ptr<LinearSolver> dense_lu();
 std::unique_ptr<LinearSolver> klu();
 
 /// Block elimination around a solver of J, with iterative refinement on the whole system (Govaerts and Pryce,
-/// BIT 30, 1990), which tolerates a numerically singular J. For every kind of Jacobian that `plain` supports.
+/// BIT 30, 1990), which tolerates a singular J: where `plain` fails, it works next to J, unless J is an
+/// operator. For every kind of Jacobian that `plain` supports.
 std::unique_ptr<LinearSolver> block_elimination(std::unique_ptr<PlainSolver> plain);
 
 /// The default for the kind of Jacobian: dense LU or KLU. Throws std::invalid_argument for an Operator, which

@@ -1,6 +1,8 @@
 #include "bordered.hpp"
 #include "catch.hpp"
 
+#include <stdexcept>
+
 using namespace bordered;
 
 namespace {
@@ -146,12 +148,91 @@ TEST_CASE("refinement is on the Jacobian itself, and a solver too far from it gi
   CHECK_FALSE(x.allFinite());
 }
 
-TEST_CASE("block elimination says false where its solver refuses a singular J, which a dense solver takes") {
-  Matrix J = Matrix::Identity(5, 5);
-  J(2, 2) = 0;
-  const Borders borders = random_borders(5, 1);
-  CHECK_FALSE(block_elimination(std::make_unique<Alone>(dense_lu()))->factorize(J, borders));
-  CHECK(dense_lu()->factorize(J, borders));
+namespace {
+
+// Dense LU of J alone, and what it does where a pivot is zero.
+class OfDenseJ final : public PlainSolver {
+ public:
+  enum class At { refuses, throws, divides };
+  explicit OfDenseJ(At singular) : singular_(singular) {}
+  const char* name() const override { return "dense"; }
+  bool prepare(const Jacobian& J) override {
+    regular_ = lu_->factorize(J, Borders(static_cast<int>(std::get<Matrix>(J).rows()), 0));
+    if (!regular_ && singular_ == At::throws) throw std::runtime_error("zero pivot");
+    return regular_ || singular_ == At::divides;
+  }
+  bool solve(In b, Out x) const override {
+    x = b;
+    if (!regular_) x /= 0.0;
+    if (regular_) lu_->solve(x);
+    return true;
+  }
+  bool solve_transposed(In b, Out x) const override {
+    x = b;
+    return lu_->solve_transposed(x);
+  }
+  std::optional<int> determinant_sign() const override { return lu_->determinant_sign(); }
+
+ private:
+  At singular_;
+  bool regular_ = false;
+  std::unique_ptr<LinearSolver> lu_ = dense_lu();
+};
+
+// Singular to the last bit: a zero pivot, a row and a column of zeros, a nilpotent matrix, zero, and what
+// cancels; in units that differ.
+std::vector<Matrix> singular_matrices() {
+  Matrix pivot = Matrix::Identity(5, 5), cross = Matrix::Constant(4, 4, 0.5), shift = Matrix::Zero(3, 3);
+  pivot(2, 2) = 0;
+  cross.diagonal().setLinSpaced(2, 5);
+  cross.row(1).setZero();
+  cross.col(3).setZero();
+  shift(0, 1) = shift(1, 2) = 1;
+  Matrix sums(4, 4);
+  sums << 1, 2, 3, 4, 2, 4, 6, 8, 1, 0, 2, 0, 0, 1, 0, 2;
+  Matrix units = sums;
+  units.row(0) *= 0x1p20;
+  units.col(2) *= 0x1p-17;
+  return {pivot, cross, shift, Matrix::Zero(1, 1), sums, units};
+}
+
+}  // namespace
+
+TEST_CASE("block elimination works next to a J that is singular to the last bit, to rounding with J itself") {
+  for (const Matrix& J : singular_matrices())
+    for (const OfDenseJ::At at : {OfDenseJ::At::refuses, OfDenseJ::At::throws, OfDenseJ::At::divides}) {
+      const int n = static_cast<int>(J.rows());
+      CAPTURE(n, static_cast<int>(at), J.norm());
+      REQUIRE(J.determinant() == 0);
+      std::srand(11);
+      const int m = n - static_cast<int>(J.fullPivLu().rank());
+      const Borders borders = random_borders(n, m);
+      const Matrix B = whole(J, borders);
+      const auto solver = block_elimination(std::make_unique<OfDenseJ>(at));
+      REQUIRE(solver->factorize(J, borders));
+      const Vector b = Vector::Random(n + m);
+      Vector x = b, y = b;
+      solver->solve(x);
+      CHECK(residual(B, x, b) < 10);
+      REQUIRE(solver->solve_transposed(y));
+      CHECK(residual(B.transpose(), y, b) < 10);
+      CHECK(solver->determinant_sign() == (B.determinant() > 0 ? 1 : -1));
+    }
+}
+
+TEST_CASE("but says false where the bordered matrix is singular as well, and throws what its solver throws") {
+  for (const Matrix& J : singular_matrices()) {
+    const int n = static_cast<int>(J.rows());
+    Borders borders(n, 1);  // with J, a row of zeros
+    borders.columns.setConstant(1);
+    borders.columns = J * borders.columns;
+    borders.rows.setRandom();
+    borders.corner.setOnes();
+    for (const OfDenseJ::At at : {OfDenseJ::At::refuses, OfDenseJ::At::divides})
+      CHECK_FALSE(block_elimination(std::make_unique<OfDenseJ>(at))->factorize(J, borders));
+    const auto throwing = block_elimination(std::make_unique<OfDenseJ>(OfDenseJ::At::throws));
+    CHECK_THROWS_WITH(throwing->factorize(J, borders), "zero pivot");
+  }
 }
 
 TEST_CASE("block elimination solves to rounding down to a J that is singular to 1e-17") {
