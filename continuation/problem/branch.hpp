@@ -54,7 +54,8 @@ struct Event {
   Point point;
   double value = 0;        // of the monitor, at the point
   bool nonsmooth = false;  // the monitor jumps across zero at a kink
-  bool located = true;     // false: the corrector failed between the points; `point` is the nearer one
+  bool located = true;     // false: the corrector failed between the points; `point` is the nearer one, and a
+                           // warning of the branch says so
   std::size_t after = 0;   // index of the preceding point of the branch
   EventData data{};        // data specific to the kind of event
 };
@@ -117,7 +118,8 @@ struct Branch {
   std::string linear_solver;  // name of the linear solver used
 
   /// Reasons to doubt the branch, one sentence each: a monitor that is NaN at a point, so that zeros next to
-  /// it are missed; a wrong Jacobian, so that tangents and events may be wrong.
+  /// it are missed; an event that is not located (Event::located), the first one of each monitor; a wrong
+  /// Jacobian, so that tangents and events may be wrong.
   std::vector<std::string> warnings;
 };
 

@@ -13,6 +13,7 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double newton_share = 1e-2;   // the corrector's tolerance, of that on the branch
+constexpr double beside_event = 1e-7;   // of 1 + |u|: where the matrix is not singular, to describe an event
 constexpr double smallest_kink = 1e-4;  // rad
 
 // An extremum between two points that is not searched for lies within the intersection of the tangents to the
@@ -131,18 +132,29 @@ std::optional<LocatedEvent> EventLocator::find(std::size_t monitor, const CurveP
 
 bool EventLocator::is_event(std::size_t monitor, const LocatedEvent& found) {
   if (!monitors_[monitor].is_event) return true;
-  const auto now = look_at(found.place);
+  const auto now = look_near(found.place);
   return !now || call(monitors_[monitor].is_event, monitors_[monitor], *now);
 }
 
 void EventLocator::describe(std::size_t monitor, LocatedEvent& found) {
   const Monitor& by = monitors_[monitor];
   if (!by.describe || found.event.nonsmooth || !found.event.located) return;
-  if (const auto now = look_at(found.place)) found.event.data = call(by.describe, by, *now);
+  if (const auto now = look_near(found.place)) found.event.data = call(by.describe, by, *now);
 }
 
 std::optional<Accepted> EventLocator::look_at(const CurvePoint& event) {
   if (!probe().linearize(event.v, probe().border_row(event.tangent))) return std::nullopt;
+  probe().move_to(event.v);
+  return accepted(probe(), event);
+}
+
+// The same, with factors next to the event if the linear solver fails on it. At a branch point the matrix
+// itself is singular.
+std::optional<Accepted> EventLocator::look_near(const CurvePoint& event) {
+  if (auto now = look_at(event); now || from_crossing_) return now;
+  const double aside = beside_event * (1 + probe().norm_u(event.v));
+  if (!probe().linearize(event.v + aside * event.tangent, probe().border_row(event.tangent)))
+    return std::nullopt;
   probe().move_to(event.v);
   return accepted(probe(), event);
 }
@@ -187,6 +199,7 @@ constexpr int samples_beside = 4;           // of q on each side of an extremum,
 constexpr double sample_share = 1e-2;       // of the step, between them
 constexpr double spreads = 2;               // of the samples: more is not rounding
 constexpr double spreads_at_kink = 8;       // of two samples
+constexpr double beside_singular = 1e-6;    // of a section: places next to one with a singular matrix
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
 // The value of a monitor at the share s of a section, corrected onto the branch from the cubic between its
@@ -208,23 +221,12 @@ class OnSection {
         negative_{positive_} {}
 
   double operator()(double s) {
-    hermite(from_.v, from_.tangent, to_.v, to_.tangent, length_, s, guess_);
-    if (!go_to_branch(factors_) && !go_to_branch(false)) {
-      // Next to a kink the cubic may lie beyond it, where it leads elsewhere: between the ends of the
-      // bracket.
-      if (positive_.s == negative_.s) return fail();
-      const double share = (s - negative_.s) / (positive_.s - negative_.s);
-      guess_ = negative_.v + share * (positive_.v - negative_.v);
-      if (!go_to_branch(false)) return fail();
-    }
+    const std::optional<double> f = go_near(s) ? measure() : singular_ ? between_neighbours(s) : std::nullopt;
+    if (!f) return fail();
     factors_ = true;
-    const bool smooth = to_.piece == from_.piece && place_.piece == from_.piece;
-    if (smooth && probe_.dot(place_.tangent, chord_) < least_along_) return fail();  // on another branch
-    place_.arclength = from_.arclength + distance(probe_, from_.v, place_.v);
-    const double f = value_of(monitor_, accepted(probe_, place_));
-    failed_ = std::isnan(f);
-    took(f, s, place_);
-    return f;
+    failed_ = std::isnan(*f);
+    took(*f, s, place_);
+    return *f;
   }
 
   /// The monitored quantity at the last place.
@@ -260,14 +262,52 @@ class OnSection {
     return 0;
   }
 
+  bool go_near(double s) {
+    singular_ = false;
+    hermite(from_.v, from_.tangent, to_.v, to_.tangent, length_, s, guess_);
+    if (go_to_branch(factors_) || go_to_branch(false)) return true;
+    // Next to a kink the cubic may lie beyond it, where it leads elsewhere: between the ends of the bracket.
+    if (positive_.s == negative_.s) return false;
+    const double share = (s - negative_.s) / (positive_.s - negative_.s);
+    guess_ = negative_.v + share * (positive_.v - negative_.v);
+    return go_to_branch(false);
+  }
+
   // From guess_, along the plane through it. A tangent from factors near the solution may be less accurate
   // than the zero requires.
   bool go_to_branch(bool factors) {
     place_.v = guess_;
     correction_ = probe_.correct(place_.v, row_, factors);
-    return correction_.converged && distance(probe_, guess_, place_.v) <= length_ &&
-           (correction_.last <= linearized_there || probe_.linearize(place_.v, row_)) &&
-           settle(probe_, place_);
+    singular_ = singular_ || correction_.singular || !std::isfinite(correction_.last);
+    if (!correction_.converged || distance(probe_, guess_, place_.v) > length_) return false;
+    if ((correction_.last <= linearized_there || probe_.linearize(place_.v, row_)) && settle(probe_, place_))
+      return true;
+    singular_ = true;
+    return false;
+  }
+
+  // The monitor at the place. Nothing: it lies on another branch.
+  std::optional<double> measure() {
+    const bool smooth = to_.piece == from_.piece && place_.piece == from_.piece;
+    if (smooth && probe_.dot(place_.tangent, chord_) < least_along_) return {};
+    place_.arclength = from_.arclength + distance(probe_, from_.v, place_.v);
+    return value_of(monitor_, accepted(probe_, place_));
+  }
+
+  // Where the linear solver fails on the place itself, as one that takes J alone where J is singular: the
+  // means of two places next to it, which differ from what is there by the square of their distance.
+  std::optional<double> between_neighbours(double s) {
+    if (!go_near(s - beside_singular)) return {};
+    const auto f = measure();
+    const CurvePoint before = place_;
+    if (!f || !go_near(s + beside_singular) || place_.piece != before.piece) return {};
+    const auto g = measure();
+    place_.v = 0.5 * (before.v + place_.v);
+    place_.tangent += before.tangent;
+    place_.tangent /= std::sqrt(probe_.dot(place_.tangent, place_.tangent));
+    place_.arclength = 0.5 * (before.arclength + place_.arclength);
+    if (!g || !probe_.move_to(place_.v)) return {};
+    return 0.5 * (*f + *g);
   }
 
   Corrector& probe_;
@@ -279,6 +319,7 @@ class OnSection {
   CurvePoint place_;
   Correction correction_;
   bool factors_ = false, failed_ = false;
+  bool singular_ = false;  // the last corrections met a singular matrix
   struct End {
     double s;
     Vector v;

@@ -98,6 +98,7 @@ class EventLocator {
   bool pass(PassedKink& corner, double length, const Vector& towards);
   bool look_beyond(const CurvePoint& kink, double way, bool is_next_to_it, const Vector& towards,
                    CurvePoint& beyond);
+  std::optional<Accepted> look_near(const CurvePoint& event);
   bool is_event(std::size_t monitor, const LocatedEvent& found);
   void describe(std::size_t monitor, LocatedEvent& found);
   Event event(std::size_t monitor, const CurvePoint& place, double value, const Correction& correction) const;

@@ -32,14 +32,25 @@ void Recorder::keep(const CurvePoint& place, const Correction& correction) {
   ++s_.branch.counts.points;
 }
 
+void Recorder::warn_once(const std::string& start, const std::string& rest) {
+  auto& all = s_.branch.warnings;
+  if (std::none_of(all.begin(), all.end(), [&](const std::string& w) { return w.starts_with(start); }))
+    all.push_back(start + rest);
+}
+
 void Recorder::warn_of_undefined(const CurvePoint& place) {
-  for (std::size_t m = 0; m < monitors_.size(); ++m) {
-    if (!std::isnan(place.monitors[m]) && !std::isnan(place.quantities[m])) continue;
-    const std::string start = "the monitor \"" + monitors_[m].name + "\" is not a number at ";
-    auto& all = s_.branch.warnings;
-    if (std::none_of(all.begin(), all.end(), [&](const std::string& w) { return w.starts_with(start); }))
-      all.push_back(start + text(place.v[place.v.size() - 1]) + ": zeros near such points are missed");
-  }
+  for (std::size_t m = 0; m < monitors_.size(); ++m)
+    if (std::isnan(place.monitors[m]) || std::isnan(place.quantities[m]))
+      warn_once("the monitor \"" + monitors_[m].name + "\" is not a number at ",
+                text(place.v[place.v.size() - 1]) + ": zeros near such points are missed");
+}
+
+// A point of the branch stands for it, whose numbers are not those of the event: once for each monitor.
+void Recorder::warn_of_unlocated(const Event& event) {
+  if (!event.located)
+    warn_once("the event \"" + event.monitor + "\" is not located near ",
+              text(event.point.parameter) +
+                  ": the nearest point of the branch that was computed stands for it (Event::located)");
 }
 
 bool Recorder::events_of(Trial& trial) {
@@ -77,6 +88,7 @@ bool Recorder::pass(const CurvePoint& from, const PassedKink& corner) {
 bool Recorder::report(std::vector<LocatedEvent>&& all) {
   bool go_on = true;
   for (LocatedEvent& found : all) {
+    warn_of_unlocated(found.event);
     const Event* event = add(std::move(found.event));
     if (observer_ && go_on) {
       const auto now = events_.look_at(found.place);

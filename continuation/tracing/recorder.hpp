@@ -10,6 +10,7 @@
 #include <arcslip/continuation/tracing/trial.hpp>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -45,6 +46,8 @@ class Recorder {
  private:
   bool pass(const CurvePoint& from, const PassedKink& corner);
   bool report(std::vector<LocatedEvent>&& found);
+  void warn_of_unlocated(const Event& event);
+  void warn_once(const std::string& start, const std::string& rest);
   const Event* add(Event&& event);
 
   const Options& options_;

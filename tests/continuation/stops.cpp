@@ -254,6 +254,8 @@ TEST_CASE("a monitor that is not a number somewhere is named once, and the branc
   const Branch across = trace(line, at(0.013, 0.013), window(0, 1), {gap});
   REQUIRE(across.events.size() == 1);
   CHECK_FALSE(across.events[0].located);
+  REQUIRE(across.warnings.size() == 1);
+  CHECK(across.warnings[0].starts_with("the event \"gap\" is not located near 0."));
   CHECK(trace(line, at(0, 0), window(0, 1), {fold_monitor()}).warnings.empty());
 }
 
