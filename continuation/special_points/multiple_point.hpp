@@ -35,8 +35,8 @@ struct MultiplePoint {
 };
 
 /// guess: (u, p_along), n + 1; p: all parameters; rank_loss: m, 2 or 3; reach: maximum distance of the point
-/// from the guess, in scales. Returns nothing if there is no such point within reach, if forms of third order
-/// do not determine its branches, or if the linear solver has no transposed solves.
+/// from the guess, in scales. Returns nothing if there is no such point within reach, or if forms of third
+/// order do not determine its branches.
 std::optional<MultiplePoint> locate_multiple_point(const Problem& problem, const Vector& p, int along,
                                                    const Vector& guess, int rank_loss, double reach,
                                                    const MakeLinearSolver& make_solver = {});

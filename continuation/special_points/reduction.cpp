@@ -88,17 +88,32 @@ void Reduction::solve() {
   rhs_[n_ + 1] += shift_ * rhs_[n_];
 }
 
-// w_i as the rows of its transpose. False: no transposed solves.
+// w_i as the rows of its transpose. False: no transposed solves, or not finite.
 bool Reduction::left_vectors(Matrix& left) {
   left.resize(n_, m_);
   for (Eigen::Index i = 0; i < m_; ++i) {
     rhs_.setZero();
     rhs_[n_ + 1 + i] = 1;
     if (i == 0) rhs_[n_] = shift_;
-    if (!M_->solve_transposed(rhs_)) return false;
+    transposed_ = transposed_ && M_->solve_transposed(rhs_);
+    if (!transposed_) return false;
     left.col(i) = rhs_.head(n_);
   }
   return left.allFinite();
+}
+
+// w_i . c for each column c, m rows: by w_i, or without them by forward solves, for M (x, beta) = (c, 0) has
+// beta_i = w_i . c.
+Matrix Reduction::left_parts(const Matrix& left, const Matrix& changes) {
+  if (transposed_) return left.transpose() * changes;
+  Matrix parts(m_, changes.cols());
+  for (Eigen::Index j = 0; j < changes.cols(); ++j) {
+    rhs_.setZero();
+    rhs_.head(n_) = changes.col(j);
+    solve();
+    parts.col(j) = rhs_.tail(m_);
+  }
+  return parts;
 }
 
 bool Reduction::null_spaces() {
@@ -118,8 +133,10 @@ bool Reduction::move_to(const Vector& x) {
   for (int k = 0; k < adaptions; ++k) {
     if (!factorize() || !null_spaces()) return false;
     Matrix left;
-    if (!left_vectors(left)) return false;
-    W_ = orthonormal_columns(left);
+    if (left_vectors(left))
+      W_ = orthonormal_columns(left);
+    else if (transposed_)
+      return false;
     C_ = scale_.cwiseInverse().asDiagonal() * orthonormal_columns(scale_.cwiseInverse().asDiagonal() * V_);
   }
   return factorize() && null_spaces();
@@ -135,7 +152,7 @@ Vector Reduction::settle() {
 bool Reduction::form(Matrix& H) {
   H.resize(m_ * (m_ + 1), m_ + 1);
   Matrix left;
-  if (!left_vectors(left)) return false;
+  if (!left_vectors(left) && transposed_) return false;
   std::array<Matrix, 2> AV{Matrix(n_, m_ + 1), Matrix(n_, m_ + 1)};
   const Matrix V = V_;
   const double h = difference_step * std::max(1.0, size());
@@ -151,7 +168,7 @@ bool Reduction::form(Matrix& H) {
       return AV[side].allFinite();
     });
     if (!quotient || quotient->here != 0) return false;
-    const Matrix change = left.transpose() * (quotient->weight[0] * AV[0] + quotient->weight[1] * AV[1]);
+    const Matrix change = left_parts(left, quotient->weight[0] * AV[0] + quotient->weight[1] * AV[1]);
     for (Eigen::Index i = 0; i < m_; ++i) H.col(k).segment(i * (m_ + 1), m_ + 1) = change.row(i).transpose();
   }
   return H.allFinite();
@@ -190,7 +207,8 @@ constexpr int places = 7;                // on the circle
 std::string doubt_of_isolation(const Problem& problem, const Vector& v, const Vector& p, int along,
                                const MakeLinearSolver& make_solver) try {
   Reduction reduction(problem, p, along, 1, make_solver);
-  if (!reduction.move_to(v) || !reduction.settle().allFinite() || !reduction.move_to(reduction.x()))
+  if (!reduction.move_to(v) || !reduction.has_left() || !reduction.settle().allFinite() ||
+      !reduction.move_to(reduction.x()))
     return {};
   const double r = circle_radius * (1 + reduction.size());
   Vector place;

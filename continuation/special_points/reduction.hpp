@@ -11,7 +11,8 @@ namespace arcslip::continuation {
 
 class Reduction {
  public:
-  /// rank_loss: m, 1 or more. Requires transposed solves.
+  /// rank_loss: m, 1 or more. Without transposed solves W stays generic, which is regular as well but in
+  /// general not as well conditioned.
   Reduction(const Problem& problem, const Vector& p, int along, int rank_loss,
             const MakeLinearSolver& make_solver);
 
@@ -22,6 +23,7 @@ class Reduction {
   const Vector& x() const { return x_; }
   const Matrix& right() const { return V_; }       // V, (n+1) x (m+1), orthonormal in scales
   const Matrix& left() const { return W_; }        // W, n x m, orthonormal
+  bool has_left() const { return transposed_; }    // W spans the left null space
   const Matrix& gradient() const { return G_; }    // G, m x (m+1)
   const Vector& scales() const { return scale_; }  // of x
   double size() const { return x_.cwiseQuotient(scale_).norm(); }
@@ -43,6 +45,7 @@ class Reduction {
   bool factorize();
   void solve();
   bool left_vectors(Matrix& left);
+  Matrix left_parts(const Matrix& left, const Matrix& changes);
   bool null_spaces();
 
   const Problem& problem_;
@@ -55,6 +58,7 @@ class Reduction {
   Vector scale_, x_, F_p_, rhs_;
   Matrix C_, V_, W_, G_;
   double shift_ = 0, magnitude_ = 0;
+  bool transposed_ = true;
 };
 
 // Whether the solutions near a point form a curve, or a surface, as with a continuous symmetry (rotations,
