@@ -93,8 +93,8 @@ inline constexpr const char* fold_event = "fold";  // name of the monitor and it
 Monitor bound_monitor(std::string name, int index, double value);
 
 /// Simple branch points, with the tangents of both branches. Nonsmooth if pieces meet there: the first
-/// tangent is then the one before, the second the one beyond. A point that is not simple is not located.
-/// Requires a linear solver with the sign of the determinant and transposed solves.
+/// tangent is then the one before, the second the one beyond. A linear solver without the sign of the
+/// determinant finds those on smooth pieces only.
 Monitor branch_point_monitor();
 
 /// Kinks of piecewise smooth problems (Evaluator::piece): jumps of the tangent, with the tangents of both

@@ -220,6 +220,27 @@ bool Corrector::tangent(Vector& t) const {
   return true;
 }
 
+bool Corrector::apply_inverse(Vector& x) const {
+  back_substitute(x);
+  return all_finite(x);
+}
+
+void Corrector::apply(const Vector& x, Vector& y) const {
+  const Eigen::Index n = F_p_.size();
+  continuation::apply(evaluator_->jacobian(), x.head(n), y.head(n));
+  y.head(n) += x[n] * F_p_;
+  y[n] = 0;
+}
+
+Vector Corrector::generic_direction(int k) const {
+  Vector x(weights_.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const auto j = static_cast<double>(i);
+    x[i] = (std::sin((0.7 + 0.1 * k) * j * j + 0.5 + k) + (i == k ? 0.1 : 0)) / std::sqrt(weights_[i]);
+  }
+  return x;
+}
+
 // Chord steps with the present factors, until one linearization is expected to complete the correction. False
 // if they do not contract; v is then unchanged.
 bool Corrector::chord(Vector& v, Correction& result) {

@@ -96,6 +96,14 @@ class Corrector {
   /// scales. False if it is not finite.
   bool tangent(Vector& t) const;
 
+  /// x = B^-1 x with the present factors. False if it is not finite.
+  bool apply_inverse(Vector& x) const;
+  /// y = ([J F_p] x, 0) at the last linearization, n + 1; before the evaluator moves on.
+  void apply(const Vector& x, Vector& y) const;
+  /// The k-th of several vectors of n + 1, of about 1 in scales in each entry, orthogonal to no symmetry or
+  /// mode of vibration.
+  Vector generic_direction(int k) const;
+
   double size(const Vector& dv, const Vector& v) const;  // of a correction, relative
   double norm_u(const Vector& v) const;                  // |u| in scales
   /// <a, b> of vectors of n + 1, in the problem's metric and the scale of the free parameter.

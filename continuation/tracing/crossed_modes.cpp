@@ -85,10 +85,14 @@ bool ModeCounter::multiply(const Matrix& Q, Matrix& Y) try {
   return false;
 }
 
+bool ModeCounter::counts_all() const {
+  return scale_.size() <= all_modes;
+}
+
 // Builds Q and Y. No columns: no mode is near zero.
 bool ModeCounter::basis() {
   const Eigen::Index size = scale_.size();
-  if (size <= all_modes) {
+  if (counts_all()) {
     Q_ = Matrix::Identity(size, size);
     return multiply(Q_, Y_);
   }

@@ -41,6 +41,9 @@ class ModeCounter {
   std::optional<CrossedModes> between(const CurvePoint& from, const CurvePoint& to, double length,
                                       const Vector& row, const LinearSolver& at_to);
 
+  /// Whether all modes are computed, so that none is missed.
+  bool counts_all() const;
+
  private:
   bool evaluate(const Vector& v, std::uint64_t piece);
   bool multiply(const Matrix& Q, Matrix& Y);

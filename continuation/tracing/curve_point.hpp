@@ -19,7 +19,7 @@ constexpr double visible_corner = 0.05;  // rad: smaller kinks are invisible in 
 struct CurvePoint {
   Vector v, tangent;  // n + 1: (u, p) and d(u, p)/ds
   double arclength = 0;
-  int orientation = 1;  // sign of det [J F_p; t^T]: the same on both sides of a kink
+  int orientation = 1;  // sign of det [J F_p; t^T]: the same on both sides of a kink; 0: not known
   std::uint64_t piece = 0;
   std::vector<double> monitors, quantities;  // as many as monitors
   std::uint64_t part = 0;                    // combined Monitor::part of the quantities

@@ -168,6 +168,8 @@ void fields(Visit&& visit, auto& x) {
     visit("contraction", x.contraction);
   } else if constexpr (is<T, State::Turn>) {
     visit("angle", x.angle), visit("step", x.step), visit("end", x.end);
+  } else if constexpr (is<T, State::Transverse>) {
+    visit("b", x.b), visit("basis", x.basis);
   } else {
     static_assert(is<T, State>);
     visit("branch", x.branch), visit("free", x.free), visit("direction", x.direction), visit("p", x.p);
@@ -182,6 +184,7 @@ void fields(Visit&& visit, auto& x) {
       visit("factors", x.factors);
     }
     if (visit.holds("curve_error")) visit("curve_error", x.curve_error);
+    if (visit.holds("transverse")) visit("transverse", x.transverse);
   }
 }
 

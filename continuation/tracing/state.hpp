@@ -43,6 +43,9 @@ struct State {
   struct Turn {  // a rejected turn of the tangent: its angle, the step, and the arclength beyond it
     double angle = 0, step = 0, end = -1;
   } turn;
+  struct Transverse {  // TransverseSpace, where the linear solver does not know the sign of the determinant
+    Vector b, basis;   // its borders, and its basis here: columns of n + 1
+  } transverse;
   std::vector<Course> courses;  // of the monitors
   double longest = 0;           // step so far
   int slow = 0;                 // number of slowly converging corrections

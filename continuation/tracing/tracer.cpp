@@ -204,25 +204,23 @@ bool Tracer::Impl::is_kink() {
 // modes that cross zero are several branch points, unless they do so at the same point.
 std::optional<Tracer::Impl::Outcome> Tracer::Impl::look_for_crossing() {
   CurvePoint& to = trial_.end;
-  const bool turned = to.orientation != s_.here.orientation;
-  int modes = turned ? 1 : 0;
   const double inseparable = branch_point_step * (1 + main_.norm_u(s_.here.v));
   const bool apart = s_.step > inseparable;
-  if (modes_ && to.orientation != 0 && to.piece == s_.here.piece) {
-    const auto crossed = modes_->between(s_.here, to, trial_.length, row_, main_.factors());
-    if (crossed && crossed->at_zero && apart)
-      return refuse(Rejected::branch_points, 1, 0, Outcome::unresolved);
-    if (crossed && (crossed->count % 2 == 1) == turned) modes = crossed->count;
-    if (crossed && modes == 0 && !crossed->told && !resolution_.stretch_is_short(pair_share)) {
-      resolution_.begin_stretch(trial_.length);
-      return refuse(Rejected::branch_points, 2, 1, Outcome::unresolved);
-    }
+  const auto crossed = counts_modes_ ? count_modes() : std::nullopt;
+  if (crossed && crossed->at_zero && apart)
+    return refuse(Rejected::branch_points, 1, 0, Outcome::unresolved);
+  const bool turned = changes_determinant(crossed);
+  int modes = turned ? 1 : 0;
+  if (crossed && (crossed->count % 2 == 1) == turned) modes = crossed->count;
+  if (crossed && modes == 0 && !crossed->told && !resolution_.stretch_is_short(pair_share)) {
+    resolution_.begin_stretch(trial_.length);
+    return refuse(Rejected::branch_points, 2, 1, Outcome::unresolved);
   }
   if (modes == 0) return {};
   to.arclength = s_.here.arclength + trial_.length;
   auto& crossing = trial_.crossing;
   if (modes == 1) crossing = events_.branch_point(s_.here, to);
-  for (int loss = std::max(modes, 2); modes_ && !crossing && loss <= largest_rank_loss; ++loss)
+  for (int loss = std::max(modes, 2); counts_modes_ && !crossing && loss <= largest_rank_loss; ++loss)
     if (loss == modes || modes == 1) crossing = events_.multiple_point(s_.here, to, loss);
   if (crossing) return {};
   if (apart && turned) return refuse(Rejected::another_branch, 0, 0);
@@ -235,6 +233,28 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::look_for_crossing() {
   }
   crossing = unlocated_branch_point(monitors_, s_.here, to);
   return {};
+}
+
+// The modes that cross zero in the step, on one smooth piece.
+std::optional<CrossedModes> Tracer::Impl::count_modes() {
+  if (trial_.end.piece != s_.here.piece) return {};
+  if (!modes_) modes_ = std::make_unique<ModeCounter>(*problem_, s_.p, s_.free, s_.branch.counts);
+  return modes_->between(s_.here, trial_.end, trial_.length, row_, main_.factors());
+}
+
+// Whether the sign of the determinant changes in the step. A linear solver that does not know it leaves that
+// to the modes that cross zero, where these are counted, and to the determinant of a few more borders; where
+// pieces meet, it is not known.
+bool Tracer::Impl::changes_determinant(const std::optional<CrossedModes>& crossed) {
+  const CurvePoint& to = trial_.end;
+  if (to.orientation != 0) return to.orientation != s_.here.orientation;
+  if (to.piece != s_.here.piece) return false;
+  const TransverseSpace::Sign sign = transverse_.compare(trial_);
+  const auto is_odd = [](const CrossedModes& modes) { return modes.count % 2 == 1; };
+  if (crossed && (crossed->count > 0 || modes_->counts_all())) return is_odd(*crossed);
+  if (sign != TransverseSpace::Sign::open) return sign == TransverseSpace::Sign::changed;
+  const auto counted = crossed ? crossed : count_modes();
+  return counted && is_odd(*counted);
 }
 
 // The monitors at the solution of the last correction.
@@ -360,6 +380,7 @@ bool Tracer::Impl::accept() {
   CurvePoint& place = trial_.end;
   record_.warn_of_undefined(place);
   record_.keep(place, trial_.correction);
+  transverse_.keep(trial_, place);
   s_.last_step = place.arclength - trial_.last_section(s_.here).arclength;
   s_.curve_error = trial_.curve_error;
   if (trial_.corners.empty())

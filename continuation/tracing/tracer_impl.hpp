@@ -14,6 +14,7 @@
 #include <arcslip/continuation/tracing/state.hpp>
 #include <arcslip/continuation/tracing/step_control.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/continuation/tracing/transverse_space.hpp>
 #include <arcslip/continuation/tracing/trial.hpp>
 
 #include <chrono>
@@ -51,6 +52,8 @@ class Tracer::Impl {
   void count_rejection();
   bool passes_corner_instead();
   std::optional<Outcome> look_for_crossing();
+  std::optional<CrossedModes> count_modes();
+  bool changes_determinant(const std::optional<CrossedModes>& crossed);
   bool is_kink();
   bool measure();
   bool settle_signs();
@@ -75,7 +78,9 @@ class Tracer::Impl {
   int n_;
   Corrector main_;
   EventLocator events_;
-  std::unique_ptr<ModeCounter> modes_;  // if branch points are monitored
+  bool counts_modes_;                   // in each step: branch points are monitored
+  std::unique_ptr<ModeCounter> modes_;  // made at its first use
+  TransverseSpace transverse_;
   StepControl control_;
   Resolution resolution_;
   JacobianWatch jacobian_;

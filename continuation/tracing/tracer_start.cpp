@@ -100,6 +100,8 @@ Tracer::Impl::Impl(std::shared_ptr<const Problem> problem, State state, const Op
       n_(problem_->size()),
       main_(*problem_, s_.p, s_.free, options_.newton, s_.branch.counts, options_.linear_solver),
       events_(problem_, s_.p, s_.free, options_, monitors_, s_.courses, s_.branch.counts),
+      counts_modes_(looks_for_branch_points(monitors_)),
+      transverse_(main_, s_),
       control_(options_, s_, main_),
       resolution_(options_, monitors_, events_.looks_for_kinks(), s_, main_),
       jacobian_(*problem_, options_, s_),
@@ -108,8 +110,6 @@ Tracer::Impl::Impl(std::shared_ptr<const Problem> problem, State state, const Op
       v_(n_ + 1) {
   main_.restore(s_.factors);
   s_.factors = {};
-  if (looks_for_branch_points(monitors_))
-    modes_ = std::make_unique<ModeCounter>(*problem_, s_.p, s_.free, s_.branch.counts);
   trial_.end = s_.here;
   trial_.end.tangent.resize(n_ + 1);
 }
@@ -164,6 +164,7 @@ bool Tracer::Impl::begin() {
                 : 0.1 * to_scale * options_.step.largest_parameter / std::max(along, 1e-3);
   s_.step = control_.limited(s_.step);
   record_.keep(s_.here, correction);
+  transverse_.keep(trial_, s_.here);
   evaluate(monitors_, main_, s_.here);
   record_.warn_of_undefined(s_.here);
   s_.start = s_.before = s_.here;

@@ -26,6 +26,8 @@ struct Trial {
   double worst_begin = 0, worst_end = 0;  // arclength of the ends of its section
   bool other_piece_between = false;       // unnoticed by its sections
   bool passes_kinks = false;              // which are too weak to be looked for
+  Vector basis;                           // TransverseSpace at its end, where the sign of the
+  bool has_basis = false;                 // determinant is not known
   double chord_error = 0;                 // of the monitored quantities, relative to the tolerance
   Rejection rejection;                    // why it was rejected
   std::size_t unresolved = 0;             // the monitor of the unresolved quantity
@@ -34,7 +36,7 @@ struct Trial {
 
   void begin() {
     length = turn = curve_error = chord_error = 0;
-    kink = other_piece_between = passes_kinks = false;
+    kink = other_piece_between = passes_kinks = has_basis = false;
     corners.clear();
     crossing.reset();
   }
