@@ -82,6 +82,11 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     return static_cast<bool>(f_->second);
   }
 
+  ByDifferences by_differences() const override {
+    const bool given = f_->jacobian || f_->sparse_jacobian || f_->apply_jacobian;
+    return {!given, !f_->derivative};
+  }
+
   std::uint64_t piece() const override { return f_->piece ? f_->piece(u_, p_) : 0; }
 
   Evaluated test_piece(In u, In p, std::uint64_t piece, PieceTest, bool& inside) override {

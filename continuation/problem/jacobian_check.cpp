@@ -20,6 +20,11 @@ namespace {
 constexpr double wider = 4;         // another step, in steps
 constexpr double agreement = 1e-4;  // relative differences below are not worth a message
 
+bool is_difference(const Evaluator& at, Eigen::Index n, Eigen::Index column) {
+  const ByDifferences by = at.by_differences();
+  return column < n ? by.jacobian : by.parameters;
+}
+
 }  // namespace
 
 JacobianError check_jacobian(const Problem& problem, In u, In p) {
@@ -61,7 +66,8 @@ JacobianError check_jacobian(const Problem& problem, In u, In p) {
     Eigen::Index row = 0;
     const double relative = (difference - column).cwiseAbs().maxCoeff(&row) / size;
     if (!(relative > worst.relative)) return;
-    worst = {static_cast<int>(row), index, column[row], difference[row], relative, {}};
+    worst = {static_cast<int>(row),        index, column[row], difference[row], relative,
+             is_difference(*here, n, index), {}};
   };
   for (Eigen::Index j = 0; j < n; ++j) {
     unit[j] = 1;
@@ -94,6 +100,7 @@ constexpr double ratio = 8;            // of neighbouring steps
 constexpr int finer = 3, coarser = 3;  // steps than the first one
 constexpr double same = 0.2;           // of e, from step to step
 constexpr double one_sided = 0.25;     // of e: the most by which the differences to the two sides may differ
+constexpr double roundings = 1e2;      // of F, which a change along d has to exceed
 
 // +-(1/2 .. 1), without a pattern.
 double without_pattern(Eigen::Index j) {
@@ -118,6 +125,7 @@ class Doubt {
         plus_(n_),
         F_d_(n_),
         bend_(n_),
+        rounding_(n_),
         given_(n_) {}
 
   JacobianError find() {
@@ -174,6 +182,7 @@ class Doubt {
     if (!look(d, -h)) return false;
     const Vector& minus = beside_->residual();
     F_d_ = (plus_ - minus) / (2 * h);
+    rounding_ = (std::numeric_limits<double>::epsilon() / h) * plus_.cwiseAbs().cwiseMax(minus.cwiseAbs());
     bend_ = (plus_ + minus - 2 * here_->residual()).cwiseAbs() / h;
     return F_d_.allFinite();
   }
@@ -195,7 +204,7 @@ class Doubt {
     if (difference(d, first_step) && agrees()) return {.right = true};
     struct Look {
       bool usable = false;
-      Vector error, bend, size;
+      Vector error, bend, size, rounding;
     };
     std::vector<Look> looks;
     for (int k = -finer; k <= coarser; ++k) {
@@ -204,6 +213,7 @@ class Doubt {
       if (!now.usable) continue;
       now.error = given_ - F_d_;
       now.bend = bend_;
+      now.rounding = rounding_;
       now.size = given_.cwiseAbs().cwiseMax(F_d_.cwiseAbs());
     }
     Verdict worst;
@@ -215,6 +225,7 @@ class Doubt {
       for (Eigen::Index i = 0; i < n_; ++i) {
         const double e = std::abs(now.error[i]);
         if (!(e > largest * now.size[i]) || now.bend[i] > one_sided * e ||
+            !(e > roundings * below.rounding[i]) ||
             std::abs(below.error[i] - now.error[i]) > same * e ||
             std::abs(above.error[i] - now.error[i]) > same * e)
           continue;
@@ -247,7 +258,8 @@ class Doubt {
     if (std::isnan(error(begin, end)) || relative(verdict.row) <= largest_jacobian_error) return {};
     const Eigen::Index j = columns[begin];
     JacobianError found{static_cast<int>(verdict.row), static_cast<int>(j),   given_[verdict.row] / d[j],
-                        F_d_[verdict.row] / d[j],      relative(verdict.row), {}};
+                        F_d_[verdict.row] / d[j],      relative(verdict.row), is_difference(*here_, n_, j),
+                        {}};
     if (j == n_) found.column += free_;
     found.message = describe(found, problem_);
     return found;
@@ -257,7 +269,7 @@ class Doubt {
   Eigen::Index n_;
   int free_;
   std::unique_ptr<Evaluator> here_, beside_;
-  Vector u_, p_, at_u_, at_p_, F_p_, plus_, F_d_, bend_, given_;
+  Vector u_, p_, at_u_, at_p_, F_p_, plus_, F_d_, bend_, rounding_, given_;
   std::uint64_t piece_ = 0;
 };
 
@@ -266,12 +278,20 @@ class Doubt {
 std::string describe(const JacobianError& worst, const Problem& problem) {
   std::ostringstream text;
   text.precision(6);
-  text << "the Jacobian is wrong: dF[" << worst.row << "]/d";
-  if (worst.column < problem.size())
+  text << "dF[" << worst.row << "]/d";
+  const bool of_u = worst.column < problem.size();
+  if (of_u)
     text << "u[" << worst.column << "]";
   else
     text << "(" << problem.parameters()[static_cast<std::size_t>(worst.column - problem.size())].name << ")";
-  text << " is given as " << worst.given << ", finite differences give " << worst.difference;
+  if (!worst.by_differences) {
+    text << " is given as " << worst.given << ", finite differences give " << worst.difference;
+    return "the Jacobian is wrong: " + text.str();
+  }
+  text << " is " << worst.given << " by differences with the default step, " << worst.difference
+       << " with others: F has a kink, or changes over less than the step: "
+       << (of_u ? "give `piece`, `jacobian`, or `scales` of the size of u"
+                : "give `piece`, `derivative`, or a `scale` of the parameter");
   return text.str();
 }
 

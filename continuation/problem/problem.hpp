@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace arcslip::continuation {
 
@@ -60,6 +61,12 @@ struct Parameter {
   double change() const { return scale > 0 ? scale : 1; }
 };
 
+/// Which derivatives are differences of F, for want of a function of the user's. Their errors are nobody's
+/// mistake, and what needs more digits takes better differences.
+struct ByDifferences {
+  bool jacobian = false, parameters = false;
+};
+
 /// Evaluates F at one point at a time. Mutable, one for each thread. It should own all its buffers, so
 /// that evaluations do not allocate.
 class Evaluator {
@@ -86,6 +93,8 @@ class Evaluator {
     return false;
   }
 
+  virtual ByDifferences by_differences() const { return {}; }
+
   /// The smooth piece of a piecewise smooth F at the last point; equal numbers mean the same piece.
   virtual std::uint64_t piece() const { return 0; }
 
@@ -96,6 +105,12 @@ class Evaluator {
 
 class LinearSolver;  // linear_solver.hpp
 using MakeLinearSolver = std::function<std::unique_ptr<LinearSolver>()>;
+
+/// A place of a problem, and the parameters that change along a branch through it.
+struct PlaceOfProblem {
+  Vector u, p;
+  std::vector<int> changing;
+};
 
 /// The problem. Immutable, may be shared by threads.
 class Problem {
@@ -122,6 +137,13 @@ class Problem {
 
   /// Whether chord steps pay: not where J comes with F at little more than the cost of F.
   virtual bool chord_pays() const { return cheap_residual(); }
+
+  /// A problem made of another one, whose derivatives are what its own are made of: the other one, with the
+  /// place that belongs to a place of this one. Null: none.
+  virtual const Problem* made_of(PlaceOfProblem& place) const {
+    static_cast<void>(place);
+    return nullptr;
+  }
 
   /// The preferred linear solver. Null: the default for the kind of its Jacobian.
   virtual std::unique_ptr<LinearSolver> linear_solver() const;

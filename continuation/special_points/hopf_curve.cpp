@@ -116,6 +116,7 @@ class HopfEvaluator final : public Evaluator {
   }
 
   std::uint64_t piece() const override { return here_.at().piece(); }
+  ByDifferences by_differences() const override { return {!given_, !given_}; }
 
  private:
   // The derivatives of sigma and pi with respect to x and p: sums of those of w_j . J v_i, weighted by I
@@ -123,11 +124,13 @@ class HopfEvaluator final : public Evaluator {
   bool differentiate() {
     by_x_.setZero();
     by_p_.setZero();
+    given_ = true;
     for (Eigen::Index i = 0; i < 2; ++i) {
       v_.head(n_) = pair_.V.col(i);
       bool moved = false;
       for (Eigen::Index j = 0; j < 2; ++j) {
         if (!here_.second_derivative(pair_.W.col(j), v_, dx_, dp_)) {
+          given_ = false;
           if (!moved && !beside_.along(here_, v_)) return false;
           moved = true;
           beside_.transposed_derivative(pair_.W.col(j), dx_);
@@ -153,6 +156,7 @@ class HopfEvaluator final : public Evaluator {
   Matrix by_x_, by_p_;  // derivatives of sigma and pi
   Matrix J_;
   Pair pair_;
+  bool given_ = false;  // second derivatives, by the problem
   Jacobian jacobian_;
 };
 

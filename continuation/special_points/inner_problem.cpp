@@ -2,6 +2,7 @@
 
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -104,8 +105,13 @@ class AugmentedProblem final : public Problem {
     return linear_solver_ ? linear_solver_() : nullptr;
   }
   bool cheap_residual() const override { return false; }
-
-  bool has_among_unknowns(int k) const { return k == inner_->along || is_unknown(*inner_->problem, k); }
+  const Problem* made_of(PlaceOfProblem& place) const override {
+    const Eigen::Index n = inner_->size();
+    place.p[inner_->along] = place.u[n];
+    place.u.conservativeResize(n);
+    place.changing.push_back(inner_->along);
+    return inner_->problem.get();
+  }
 
  private:
   std::shared_ptr<const InnerProblem> inner_;
@@ -117,8 +123,10 @@ class AugmentedProblem final : public Problem {
 }  // namespace
 
 bool is_unknown(const Problem& problem, int k) {
-  const auto* holds_another = dynamic_cast<const AugmentedProblem*>(&problem);
-  return holds_another && holds_another->has_among_unknowns(k);
+  PlaceOfProblem place{Vector::Zero(problem.size()), parameter_values(problem), {}};
+  for (const Problem* of = problem.made_of(place); of; of = of->made_of(place)) {
+  }
+  return std::find(place.changing.begin(), place.changing.end(), k) != place.changing.end();
 }
 
 std::shared_ptr<const Problem> augmented(std::shared_ptr<const InnerProblem> inner, Vector scales,

@@ -116,6 +116,7 @@ class ZeroEvaluator final : public Evaluator, public Operator {
   }
 
   std::uint64_t piece() const override { return here_.at().piece(); }
+  ByDifferences by_differences() const override { return {true, true}; }
 
   Eigen::Index functions() const { return m_; }
   // B at the last point with a Jacobian.

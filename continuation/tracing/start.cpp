@@ -32,12 +32,17 @@ void check_scales(const Problem& problem) {
 
 namespace {
 
+std::string no_parameter(int free, std::size_t count) {
+  return "the free parameter has index " + std::to_string(free) + ", but the problem has " +
+         std::to_string(count) +
+         (count == 1 ? " parameter, with index 0" : " parameters, with indices from 0");
+}
+
 // A parameter that can be free, and its window.
 void check_free(const Problem& problem, int free, const Options& options) {
   const auto parameters = problem.parameters();
   if (free < 0 || static_cast<std::size_t>(free) >= parameters.size())
-    throw std::invalid_argument("the free parameter is number " + std::to_string(free) + " of " +
-                                std::to_string(parameters.size()));
+    throw std::invalid_argument(no_parameter(free, parameters.size()));
   const Parameter& parameter = parameters[static_cast<std::size_t>(free)];
   if (is_unknown(problem, free))
     throw std::invalid_argument("the parameter \"" + parameter.name +
@@ -86,8 +91,7 @@ void check_start(const Problem& problem, const Start& start, const Options& opti
 void check_state(const Problem& problem, const State& state, std::size_t monitors) {
   const int n = problem.size();
   if (state.free < 0 || static_cast<std::size_t>(state.free) >= problem.parameters().size())
-    throw std::invalid_argument("the free parameter of the state is number " + std::to_string(state.free) +
-                                " of " + std::to_string(problem.parameters().size()));
+    throw std::invalid_argument("of the state: " + no_parameter(state.free, problem.parameters().size()));
   if (state.here.v.size() != n + 1 ||
       state.p.size() != static_cast<Eigen::Index>(problem.parameters().size()) ||
       state.courses.size() != monitors)
@@ -124,6 +128,7 @@ class ScaledProblem final : public Problem {
   std::unique_ptr<Evaluator> evaluator() const override { return problem_->evaluator(); }
   bool cheap_residual() const override { return problem_->cheap_residual(); }
   bool chord_pays() const override { return problem_->chord_pays(); }
+  const Problem* made_of(PlaceOfProblem& place) const override { return problem_->made_of(place); }
   std::unique_ptr<LinearSolver> linear_solver() const override { return problem_->linear_solver(); }
 
  private:

@@ -1,5 +1,7 @@
 #include <arcslip/continuation/tracing/step_control.hpp>
 
+#include <arcslip/continuation/problem/text.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +23,27 @@ double curve_factor(double error) {
 
 double StepControl::smallest() const {
   return options_.step.smallest * (1 + in_.norm_u(s_.here.v));
+}
+
+std::string StepControl::option_below_smallest() const {
+  const double least = smallest(), longest = limited(least);
+  if (!(longest < least)) return {};
+  const double p = s_.here.v[s_.here.v.size() - 1];
+  const double along = std::abs(s_.here.tangent[s_.here.tangent.size() - 1]);
+  const double slack = 1 + 1e-9;
+  const bool by_parameter = along * longest * slack >= largest_parameter_step();
+  const bool relative = options_.step.relative_parameter * std::abs(p) <= options_.step.largest_parameter;
+  const char* option = !by_parameter ? (options_.step.largest > 0 && longest * slack >= options_.step.largest
+                                            ? "step.largest"
+                                            : "step.relative_state")
+                       : options_.step.relative_parameter > 0 && relative ? "step.relative_parameter"
+                                                                          : "step.largest_parameter";
+  std::string sentence = text("the step that `", option, "` allows at ", p, ", ", longest,
+                              " in scaled arclength, is below the smallest one, ", least);
+  if (by_parameter)
+    sentence += text(": the parameter's scale, ", in_.parameter_scale(),
+                     ", is far above its value; give it a smaller `scale`, or a narrower window");
+  return sentence;
 }
 
 double StepControl::largest_parameter_step() const {

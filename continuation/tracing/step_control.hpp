@@ -6,6 +6,8 @@
 #include <arcslip/continuation/tracing/state.hpp>
 #include <arcslip/continuation/tracing/trial.hpp>
 
+#include <string>
+
 namespace arcslip::continuation {
 
 class StepControl {
@@ -16,6 +18,8 @@ class StepControl {
 
   /// The step below which a trace ends.
   double smallest() const;
+  /// A sentence, if an option allows none but shorter steps here.
+  std::string option_below_smallest() const;
   /// |dp| of a step at most.
   double largest_parameter_step() const;
   /// A step cut to what the options allow.

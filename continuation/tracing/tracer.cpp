@@ -151,9 +151,17 @@ bool Tracer::Impl::may_try() {
     return end(StopReason::not_evaluated, s_.step, smallest,
                "the problem could not be evaluated at the next point, even with the smallest step" +
                    because(trial_.failure));
-  return end(StopReason::step_too_small, s_.step, smallest,
-             "the step size fell below its minimum after rejections" + jacobian_.doubt(s_.here.v) +
-                 doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver));
+  return end(StopReason::step_too_small, s_.step, smallest, why_too_small());
+}
+
+std::string Tracer::Impl::why_too_small() {
+  const bool rejected = s_.branch.counts.rejected_steps > rejected_before_;
+  std::string why = rejected ? std::string() : control_.option_below_smallest();
+  if (!why.empty()) return why;
+  why = "the step size fell below its minimum";
+  why += rejected ? " after rejections" : ", each step shorter than the one before";
+  why += jacobian_.doubt(s_.here.v, s_.here.v);
+  return why + doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver);
 }
 
 void Tracer::Impl::count_rejection() {
@@ -388,6 +396,7 @@ bool Tracer::Impl::accept() {
   else
     s_.before = trial_.corners.back().beyond;
   std::swap(s_.here, place);
+  rejected_before_ = s_.branch.counts.rejected_steps;
   jacobian_.check_some();
   if (!go_on || !record_.show_last_point()) return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;

@@ -47,6 +47,7 @@ class Tracer::Impl {
   std::string singular_start(bool has_tangent) const;
 
   bool may_try();
+  std::string why_too_small();
   Outcome attempt();
   Outcome refuse(Rejected why, double value, double limit, Outcome as = Outcome::rejected);
   void count_rejection();
@@ -87,6 +88,7 @@ class Tracer::Impl {
   Recorder record_;
   Trial trial_;
   Vector row_, v_;  // n + 1
+  long rejected_before_ = 0;  // steps, before the last point
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 

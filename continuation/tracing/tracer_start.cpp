@@ -107,7 +107,8 @@ Tracer::Impl::Impl(std::shared_ptr<const Problem> problem, State state, const Op
       jacobian_(*problem_, options_, s_),
       record_(options_, monitors_, std::move(observer), s_, main_, events_),
       row_(n_ + 1),
-      v_(n_ + 1) {
+      v_(n_ + 1),
+      rejected_before_(s_.branch.counts.rejected_steps) {
   main_.restore(s_.factors);
   s_.factors = {};
   trial_.end = s_.here;
@@ -131,6 +132,7 @@ bool Tracer::Impl::begin() {
   const bool given = s_.here.tangent.size() != 0;
   if (!given) s_.here.tangent = Vector::Unit(n_ + 1, n_);
   main_.border_row(s_.here.tangent, row_);
+  const Vector guess = s_.here.v;
   // A start with a tangent is a prediction; without, it may be far from the branch.
   const Correction correction = given ? main_.correct(s_.here.v, row_, false)
                                       : first_point(*problem_, main_, options_, row_, s_.here.v);
@@ -139,7 +141,7 @@ bool Tracer::Impl::begin() {
                "the linearization at the start is singular" + because(main_.failure()) +
                    (main_.failure().empty() ? singular_start(given) : ""));
   if (!correction.converged && correction.evaluated) {
-    std::string doubts = jacobian_.doubt(s_.here.v);
+    std::string doubts = jacobian_.doubt(s_.here.v, guess);
     if (doubts.empty() && correction.linear && !given)
       doubts = std::string("; it converges slowly") + needs_tangent;
     return end(StopReason::start_failed, correction.last, options_.newton.tolerance,

@@ -128,7 +128,9 @@ TEST_CASE("a state whose free parameter the problem does not have is refused") {
   tracer.step();
   State state = tracer.save();
   state.free = 2;
-  CHECK_THROWS_WITH(Tracer(cusp(), state, window(-1, 1)), "the free parameter of the state is number 2 of 2");
+  CHECK_THROWS_WITH(Tracer(cusp(), state, window(-1, 1)),
+                    "of the state: the free parameter has index 2, but the problem has 2 parameters, with "
+                    "indices from 0");
 }
 
 TEST_CASE("a trace that is saved at each point is the one that is not, as is one that is resumed from each") {

@@ -368,7 +368,7 @@ TEST_CASE("a problem without unknowns, and a free parameter that there is none, 
                     "the problem has no unknowns");
   CHECK_THROWS_WITH(
       trace(std::make_shared<Odd>(1, 1), {Vector::Zero(1), Vector::Zero(1), 3, 1}, window(0, 1)),
-      "the free parameter is number 3 of 1");
+      "the free parameter has index 3, but the problem has 1 parameter, with index 0");
 }
 
 TEST_CASE("scales that are not positive are refused before anything is traced") {
