@@ -3,6 +3,7 @@
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/special_points/inner_problem.hpp>
 #include <arcslip/continuation/special_points/neighbours.hpp>
+#include <arcslip/continuation/special_points/on_curve.hpp>
 
 #include <cmath>
 #include <exception>
@@ -27,7 +28,7 @@ struct StationaryDefinition {
   }
 };
 
-class StationaryEvaluator final : public Evaluator, public Operator {
+class StationaryEvaluator final : public Evaluator, public Operator, public OnCurveOfStationaryPoints {
  public:
   explicit StationaryEvaluator(std::shared_ptr<const StationaryDefinition> definition)
       : definition_(std::move(definition)),
@@ -90,6 +91,10 @@ class StationaryEvaluator final : public Evaluator, public Operator {
   }
 
   std::uint64_t piece() const override { return here_.at().piece(); }
+  ByDifferences by_differences() const override {
+    const bool differences = !(F_given_ && q_given_);
+    return {differences, differences};
+  }
 
   // B at the last point.
   const std::shared_ptr<LinearSolver>& factors() const { return factors_.now(); }
@@ -103,8 +108,10 @@ class StationaryEvaluator final : public Evaluator, public Operator {
   } catch (const std::exception&) {
     return std::nan("");
   }
-  double second_derivative_of_q() const { return transposed_ ? G_x_.dot(t_) : along(t_, *factors_.now()); }
-  double left_times_right() const { return transposed_ ? z_.head(n_).dot(t_.head(n_)) : 1; }
+  double cusp_function(In) const override { return transposed_ ? G_x_.dot(t_) : along(t_, *factors_.now()); }
+  double left_times_right() const override {
+    return transposed_ ? z_.head(n_).dot(t_.head(n_)) : 1;
+  }
 
  private:
   // t at the point of here_.
@@ -268,8 +275,8 @@ class StationarySolver final : public LinearSolver {
   mutable Vector y_, rhs_, small_x_;
 };
 
-const StationaryEvaluator& stationary(const Accepted& now) {
-  const auto* at = dynamic_cast<const StationaryEvaluator*>(&now.at);
+const OnCurveOfStationaryPoints& on_curve(const Accepted& now) {
+  const auto* at = dynamic_cast<const OnCurveOfStationaryPoints*>(&now.at);
   if (!at) throw std::invalid_argument("this monitor is for curves of folds and of stationary points");
   return *at;
 }
@@ -286,24 +293,16 @@ std::shared_ptr<const Problem> stationary_points(std::shared_ptr<const Problem> 
       [] { return std::make_unique<StationarySolver>(); });
 }
 
-std::shared_ptr<const Problem> folds(std::shared_ptr<const Problem> problem, int along,
-                                     MakeLinearSolver make_solver) {
-  StationaryQuantity parameter;
-  parameter.gradient = [](Evaluator&, In, In, Out dq_du) { dq_du.setZero(); };
-  parameter.parameter_derivative = [along](Evaluator&, In, In, int k) { return k == along ? 1.0 : 0.0; };
-  parameter.second_derivative = [](Evaluator&, In, In, In, In, Out du, Out dp) {
-    du.setZero();
-    dp.setZero();
-  };
-  return stationary_points(std::move(problem), along, std::move(parameter), std::move(make_solver));
-}
-
 Monitor cusp_monitor() {
-  return {cusp_event, [](const Accepted& now) { return stationary(now).second_derivative_of_q(); }};
+  Monitor monitor;
+  monitor.name = cusp_event;
+  monitor.value = [](const Accepted& now) { return on_curve(now).cusp_function(now.tangent); };
+  monitor.is_event = [](const Accepted& now) { return on_curve(now).is_cusp(now.tangent); };
+  return monitor;
 }
 
 Monitor bogdanov_takens_monitor() {
-  return {"bogdanov_takens", [](const Accepted& now) { return stationary(now).left_times_right(); }};
+  return {"bogdanov_takens", [](const Accepted& now) { return on_curve(now).left_times_right(); }};
 }
 
 Vector with_parameter(const Point& point) {

@@ -13,7 +13,7 @@
 //   G(x, p) = dq/dx . t = 0.
 //
 // F = 0, G = 0 are n + 1 equations in x and one more free parameter, which trace() continues like any other
-// problem, with events, kinks and boundaries. Folds are the case q = p_a. With the left vector B^T z = dq/dx,
+// problem, with events, kinks and boundaries. With the left vector B^T z = dq/dx,
 // z = (w, G), the gradient of G is (Govaerts 2000, chapter 3: minimally augmented systems)
 //
 //   dG = d(dq/dx) . t - w . dA t,
@@ -22,6 +22,17 @@
 // So one factorization of B and one transposed solve suffice: the augmented system is solved by block
 // elimination with B and never formed. For a linear solver without transposed solves, directional derivatives
 // of G are used, at one forward solve each (the Newton steps of Moore and Spence's system).
+//
+// Folds are the case q = p_a, but B is singular where F_pa lies in the range of J: at a cusp of a problem
+// with a symmetry, as at 0 of p_a u - u^3 + p_b, and where the curve turns in the other parameter. So theirs
+// is the bordered J, with the null vectors of the point before as borders,
+//
+//   M (v, g) = e_{n+1},   M^T (w, g) = e_{n+1},   M = [ J   b ]
+//                                                     [ c^T 0 ],
+//
+// which is regular wherever J has rank n - 1. g is zero at folds, with the null vectors J v = 0, w J = 0, and
+// its gradient is -w . dJ v. With the sign of det M it does not depend on those of b and c. A cusp is a zero
+// of w . F_uu v v, a Bogdanov-Takens point one of w . v.
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
@@ -52,13 +63,16 @@ std::shared_ptr<const Problem> stationary_points(std::shared_ptr<const Problem> 
 std::shared_ptr<const Problem> folds(std::shared_ptr<const Problem> problem, int along,
                                      MakeLinearSolver make_solver = {});
 
-/// On a curve of folds, zero at cusps: the second derivative of p_along along the branch through the fold.
-/// On other curves of stationary points its value is the second derivative of q along the branch.
+/// On a curve of folds, zero at cusps: w . F_uu v v of the null vectors, |v| = 1 in scales, |w| = 1, times
+/// the share of v in the tangent of the curve, which is 1 at a cusp. It is 0, and no event, where that
+/// share is small. On other curves of stationary points its value is the second derivative of q
+/// along the branch.
 Monitor cusp_monitor();
 inline constexpr const char* cusp_event = "cusp";  // name of the monitor and its events
 
-/// On a curve of folds of u' = F, zero at Bogdanov-Takens points: w . v of the null vectors J v = 0, w J = 0.
-/// Requires transposed solves; without them its value is never zero.
+/// On a curve of folds of u' = F, zero at Bogdanov-Takens points: w . v of the null vectors J v = 0, w J = 0
+/// of length 1, times the sign of det [J w; v^T 0], so that it goes with the product of the other eigenvalues
+/// of J. In one unknown it is never zero. Requires transposed solves; without them its value is never zero.
 Monitor bogdanov_takens_monitor();
 
 /// The unknowns (u, p_along) of a point of a branch in p_along, the start of a curve.
