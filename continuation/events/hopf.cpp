@@ -1,9 +1,11 @@
 #include <arcslip/continuation/events/hopf.hpp>
 
+#include <arcslip/continuation/events/hopf_refinement.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 
 #include <algorithm>
 #include <complex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -12,7 +14,8 @@ namespace {
 
 constexpr const char* not_computed = "the eigenvalues of the Jacobian could not be computed";
 
-constexpr double same_crossing = 1e-8;  // real parts, of the largest eigenvalue: pairs that cross together
+constexpr double same_crossing = 1e-8;   // real parts, of the largest eigenvalue: pairs that cross together
+constexpr double same_frequency = 1e-4;  // of pairs that cross together: their vectors are not separate
 
 // The eigenvalues of J by decreasing real part, shared by all monitors at one point: recomputed if J changed.
 class Spectrum {
@@ -25,21 +28,17 @@ class Spectrum {
   // Of the k-th eigenvalue, on the imaginary axis to rounding. The order of pairs that cross together depends
   // on rounding: they are sorted by frequency, lowest first.
   EventData hopf(const Jacobian& jacobian, std::size_t k, const Vector& scales) {
-    compute(jacobian);
-    double largest = 0;
-    for (const auto& each : eigenvalues_) largest = std::max(largest, std::abs(each));
-    std::size_t rank = 0;
-    std::vector<double> frequencies;
-    for (std::size_t i = 0; i < eigenvalues_.size(); ++i) {
-      const auto each = eigenvalues_[i];
-      if (!(each.imag() > 0) || std::abs(each.real() - eigenvalues_[k].real()) > same_crossing * largest)
-        continue;
-      if (i < k) ++rank;
-      frequencies.push_back(each.imag());
-    }
-    if (rank >= frequencies.size()) return {};
-    std::sort(frequencies.begin(), frequencies.end());
-    return with_vector(frequencies, rank, scales);
+    const auto found = crossing(jacobian, k);
+    return found ? described(found->frequency, found->z, scales) : EventData();
+  }
+
+  // The same by its own equations, unless pairs of one frequency cross together.
+  std::optional<RefinedEvent> refined(const Accepted& now, std::size_t k, const Vector& scales) {
+    const auto found = crossing(now.at.jacobian(), k);
+    if (!found || !found->separate) return {};
+    const auto better = refine_hopf(now, found->frequency, found->z, scales);
+    if (!better) return {};
+    return RefinedEvent{better->x, described(better->frequency, better->z, scales)};
   }
 
  private:
@@ -54,29 +53,54 @@ class Spectrum {
                      [](const auto& x, const auto& y) { return x.real() > y.real(); });
   }
 
-  EventData with_vector(const std::vector<double>& frequencies, std::size_t rank, const Vector& scales) {
+  struct CrossingPair {
+    double frequency;
+    Eigen::VectorXcd z;
+    bool separate;  // no other pair of its frequency crosses with it
+  };
+
+  std::optional<CrossingPair> crossing(const Jacobian& jacobian, std::size_t k) {
+    compute(jacobian);
+    double largest = 0;
+    for (const auto& each : eigenvalues_) largest = std::max(largest, std::abs(each));
+    std::size_t rank = 0, count = 0;
+    for (std::size_t i = 0; i < eigenvalues_.size(); ++i) {
+      const auto each = eigenvalues_[i];
+      if (!(each.imag() > 0) || std::abs(each.real() - eigenvalues_[k].real()) > same_crossing * largest)
+        continue;
+      if (i < k) ++rank;
+      ++count;
+    }
+    if (rank >= count) return {};
     const Modes modes = continuation::modes(J_);
     const auto& all = modes.values;
     // The pairs nearest to the axis, as many as cross together, in the order of their frequencies.
     std::vector<Eigen::Index> pairs;
     for (Eigen::Index i = 0; i < all.size(); ++i)
       if (all[i].imag() > 0) pairs.push_back(i);
-    if (pairs.size() < frequencies.size()) return {};
+    if (pairs.size() < count) return {};
     std::stable_sort(pairs.begin(), pairs.end(), [&](Eigen::Index i, Eigen::Index j) {
       return std::abs(all[i].real()) < std::abs(all[j].real());
     });
-    pairs.resize(frequencies.size());
+    pairs.resize(count);
     std::stable_sort(pairs.begin(), pairs.end(),
                      [&](Eigen::Index i, Eigen::Index j) { return all[i].imag() < all[j].imag(); });
-    const Eigen::Index chosen = pairs[rank];
-    Eigen::VectorXcd z = modes.V.col(chosen).cwiseQuotient(scales.cast<std::complex<double>>());
+    const double frequency = all[pairs[rank]].imag();
+    const auto equal = std::count_if(pairs.begin(), pairs.end(), [&](Eigen::Index i) {
+      return std::abs(all[i].imag() - frequency) <= same_frequency * frequency;
+    });
+    return CrossingPair{frequency, modes.V.col(pairs[rank]), equal == 1};
+  }
+
+  static EventData described(double frequency, const Eigen::VectorXcd& vector, const Vector& scales) {
+    Eigen::VectorXcd z = vector.cwiseQuotient(scales.cast<std::complex<double>>());
     z /= z.norm();
     // By the phase that makes sum z_i^2 = |a|^2 - |b|^2 + 2i a . b real and not negative.
     z *= std::polar(1.0, -0.5 * std::arg(z.cwiseProduct(z).sum()));
     Eigen::Index largest;
     z.real().cwiseAbs().maxCoeff(&largest);
     if (z[largest].real() < 0) z = -z;
-    return Hopf{all[chosen].imag(), z.real().cwiseProduct(scales), z.imag().cwiseProduct(scales)};
+    return Hopf{frequency, z.real().cwiseProduct(scales), z.imag().cwiseProduct(scales)};
   }
 
   Matrix J_, at_;
@@ -112,6 +136,9 @@ std::vector<Monitor> hopf_monitors(const Problem& problem) {
     monitors[k].name = "hopf";
     monitors[k].value = [=](const Accepted& now) { return eigenvalue(now).real(); };
     monitors[k].is_event = [=](const Accepted& now) { return eigenvalue(now).imag() > 0; };  // once a pair
+    monitors[k].refine = [=](const Accepted& now) {
+      return now.scratch.get<Spectrum>().refined(now, k, scales);
+    };
     monitors[k].describe = [=](const Accepted& now) {
       return now.scratch.get<Spectrum>().hopf(now.at.jacobian(), k, scales);
     };

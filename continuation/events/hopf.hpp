@@ -14,6 +14,9 @@
 // A pair is a common zero of two neighbours, s_k = s_(k+1), and is one event, that of the eigenvalue with
 // positive imaginary part. Pairs that cross at the same point are one event each, by increasing frequency.
 //
+// A pair that crosses apart from others is then located by equations of its own (hopf_refinement.hpp), to
+// 1e-12 of p and of the frequency with an exact J, to 1e-8 with default differences.
+//
 // The sign convention is that of u' = F: negative real parts are stable. -F has the same Hopf points.
 
 #include <arcslip/continuation/events/monitor.hpp>

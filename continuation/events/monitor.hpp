@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace arcslip::continuation {
@@ -25,6 +26,13 @@ struct Accepted {
   const LinearSolver& bordered;
   double parameter;  // value of the free one
   Scratch& scratch;  // of this trace: data that monitors keep between calls
+  int free = 0;      // index of the free parameter
+};
+
+/// An event by equations of its own, more accurate than as a zero along the branch.
+struct RefinedEvent {
+  Vector v;  // (u, p), n + 1
+  EventData data;
 };
 
 /// The sign changes that count, in the direction of travel along the branch.
@@ -79,6 +87,10 @@ struct Monitor {
   /// quantity() is the free parameter, whose scale is known: steps are not shortened to find extrema that
   /// differ by less than 1e-9 of it, as in a tail in which p decays to 0.
   bool quantity_is_parameter = false;
+
+  /// A smooth event to rounding, from the place where it was found. Nothing: that place stays, and is
+  /// described.
+  std::function<std::optional<RefinedEvent>(const Accepted&)> refine = {};
 };
 
 /// dp/ds = 0: folds in the free parameter, with their null vectors and curvature; at a nonsmooth fold dp/ds

@@ -118,7 +118,12 @@ SymmetricModes symmetric_modes(const Matrix& A, const Matrix& B);
 /// Eigenvalues mu of A v = mu B v in increasing order, B positive definite.
 Vector symmetric_eigenvalues(const Matrix& A, const Matrix& B);
 
-/// A V = V diag(values) of a general real A.
+/// Balances A: D^-1 A D, with rows and columns of similar norms and D = diag(scales) of powers of 2, has the
+/// eigenvalues of A, with rounding errors relative to its own norm (Parlett and Reinsch, Numer. Math. 13,
+/// 1969; norms as of LAPACK's dgebal, James, Langou and Lowery 2014).
+void balance(Matrix& A, Vector& scales);
+
+/// A V = V diag(values) of a general real A, by QR of the balanced A.
 struct Modes {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd V;
@@ -126,7 +131,7 @@ struct Modes {
 Modes modes(const Matrix& A);
 Eigen::VectorXcd eigenvalues(const Matrix& A);
 
-/// Eigenvalues of matrices of one size; no allocation after the first.
+/// Eigenvalues of matrices of one size, balanced; no allocation after the first.
 class Eigenvalues {
  public:
   Eigenvalues();

@@ -4,7 +4,44 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include <utility>
+
 namespace arcslip::continuation {
+namespace {
+
+constexpr double worthwhile = 0.95;  // of the norms of a row and its column, after a scaling
+constexpr int most_sweeps = 50;
+constexpr double farthest_scaling = 0x1p500;
+
+// The power of 2 by which the column divides and the row multiplies, so that both have similar norms.
+double balancing_factor(double column, double row) {
+  const double sum = column + row;
+  double factor = 1;
+  for (; column < row / 2 && factor < farthest_scaling; factor *= 2) column *= 2, row /= 2;
+  for (; column / 2 >= row && factor > 1 / farthest_scaling; factor /= 2) column /= 2, row *= 2;
+  return column + row < worthwhile * sum ? factor : 1;
+}
+
+}  // namespace
+
+void balance(Matrix& A, Vector& scales) {
+  scales.setOnes(A.rows());
+  if (!A.allFinite()) return;
+  bool changed = true;
+  for (int sweep = 0; changed && sweep < most_sweeps; ++sweep) {
+    changed = false;
+    for (Eigen::Index i = 0; i < A.rows(); ++i) {
+      const double column = A.col(i).norm(), row = A.row(i).norm();
+      if (column == 0 || row == 0) continue;
+      const double factor = balancing_factor(column, row), scale = scales[i] * factor;
+      if (factor == 1 || !(scale < farthest_scaling && scale > 1 / farthest_scaling)) continue;
+      changed = true;
+      scales[i] = scale;
+      A.col(i) *= factor;
+      A.row(i) /= factor;
+    }
+  }
+}
 
 SymmetricModes symmetric_modes(const Matrix& A) {
   const Eigen::SelfAdjointEigenSolver<Matrix> of(A);
@@ -31,9 +68,17 @@ Vector symmetric_eigenvalues(const Matrix& A, const Matrix& B) {
 }
 
 Modes modes(const Matrix& A) {
-  const Eigen::EigenSolver<Matrix> of(A);
+  Matrix balanced = A;
+  Vector scales;
+  balance(balanced, scales);
+  const Eigen::EigenSolver<Matrix> of(balanced);
   if (of.info() != Eigen::Success) return {};
-  return {of.eigenvalues(), of.eigenvectors()};
+  Eigen::MatrixXcd V = of.eigenvectors();
+  if ((scales.array() != 1).any()) {
+    V.array().colwise() *= scales.cast<std::complex<double>>().array();
+    V.colwise().normalize();
+  }
+  return {of.eigenvalues(), std::move(V)};
 }
 
 Eigen::VectorXcd eigenvalues(const Matrix& A) {
@@ -43,13 +88,17 @@ Eigen::VectorXcd eigenvalues(const Matrix& A) {
 
 struct Eigenvalues::Decomposition {
   Eigen::EigenSolver<Matrix> of;
+  Matrix balanced;
+  Vector scales;
 };
 
 Eigenvalues::Eigenvalues() : of_(std::make_unique<Decomposition>()) {}
 Eigenvalues::~Eigenvalues() = default;
 
 bool Eigenvalues::compute(const Matrix& A) {
-  return of_->of.compute(A, false).info() == Eigen::Success;
+  of_->balanced = A;
+  balance(of_->balanced, of_->scales);
+  return of_->of.compute(of_->balanced, false).info() == Eigen::Success;
 }
 
 const Eigen::VectorXcd& Eigenvalues::values() const {

@@ -112,6 +112,7 @@ class Corrector {
   void border_row(const Vector& t, Vector& row) const;
   Vector border_row(const Vector& t) const;
   double parameter_scale() const { return parameter_scale_; }
+  int free() const { return free_; }
   const Vector& parameters() const { return p_; }
   /// Why the last evaluation failed: the exception of the problem, or the misuse. Empty: the problem returned
   /// the failure itself.

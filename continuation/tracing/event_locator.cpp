@@ -138,8 +138,21 @@ bool EventLocator::is_event(std::size_t monitor, const LocatedEvent& found) {
 
 void EventLocator::describe(std::size_t monitor, LocatedEvent& found) {
   const Monitor& by = monitors_[monitor];
-  if (!by.describe || found.event.nonsmooth || !found.event.located) return;
+  if (found.event.nonsmooth || !found.event.located || refine(by, found) || !by.describe) return;
   if (const auto now = look_near(found.place)) found.event.data = call(by.describe, by, *now);
+}
+
+bool EventLocator::refine(const Monitor& by, LocatedEvent& found) {
+  if (!by.refine) return false;
+  const auto now = look_at(found.place);
+  auto refined = now ? call(by.refine, by, *now) : std::nullopt;
+  if (!refined) return false;
+  found.place.v = std::move(refined->v);
+  const Eigen::Index n = found.place.v.size() - 1;
+  found.event.point.u = found.place.v.head(n);
+  found.event.point.parameter = found.place.v[n];
+  found.event.data = std::move(refined->data);
+  return true;
 }
 
 std::optional<Accepted> EventLocator::look_at(const CurvePoint& event) {

@@ -101,6 +101,7 @@ class EventLocator {
   std::optional<Accepted> look_near(const CurvePoint& event);
   bool is_event(std::size_t monitor, const LocatedEvent& found);
   void describe(std::size_t monitor, LocatedEvent& found);
+  bool refine(const Monitor& by, LocatedEvent& found);
   Event event(std::size_t monitor, const CurvePoint& place, double value, const Correction& correction) const;
   Corrector& probe();
 
