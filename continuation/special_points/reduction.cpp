@@ -3,6 +3,7 @@
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 #include <arcslip/continuation/problem/difference.hpp>
+#include <arcslip/continuation/special_points/dependent_equations.hpp>
 
 #include <algorithm>
 #include <array>
@@ -206,6 +207,8 @@ constexpr int places = 7;                // on the circle
 
 std::string doubt_of_isolation(const Problem& problem, const Vector& v, const Vector& p, int along,
                                const MakeLinearSolver& make_solver) try {
+  if (std::string dependence = doubt_of_dependence(problem, v, p, along); !dependence.empty())
+    return dependence;
   Reduction reduction(problem, p, along, 1, make_solver);
   if (!reduction.move_to(v) || !reduction.has_left() || !reduction.settle().allFinite() ||
       !reduction.move_to(reduction.x()))

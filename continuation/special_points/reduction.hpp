@@ -66,7 +66,8 @@ class Reduction {
 
 /// A sentence if F = 0, to rounding, all around v = (u, p) in the plane of the two directions in which [J
 /// F_p] is smallest: beta(y) of reduction.hpp with m = 1 is then zero on a circle, where it is of order |y|
-/// at a regular point and of order |y|^2 at a branch point. Empty otherwise.
+/// at a regular point and of order |y|^2 at a branch point. Or if combinations of the equations vanish for
+/// all u, which it names. Empty otherwise.
 std::string doubt_of_isolation(const Problem& problem, const Vector& v, const Vector& p, int along,
                                const MakeLinearSolver& make_solver);
 

@@ -1,6 +1,7 @@
 // Start of a trace: from a start point, or from a saved state.
 
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/continuation/special_points/dependent_equations.hpp>
 #include <arcslip/continuation/special_points/inner_problem.hpp>
 #include <arcslip/continuation/special_points/reduction.hpp>
 #include <arcslip/continuation/tracing/first_point.hpp>
@@ -123,7 +124,9 @@ State Tracer::Impl::save() const {
 
 // Appended to the message that the linearization at the start is singular.
 std::string Tracer::Impl::singular_start(bool has_tangent) const {
-  const std::string doubt = doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver);
+  const auto& solver = options_.linear_solver;
+  std::string doubt = doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, solver);
+  if (doubt.empty()) doubt = doubt_of_branch_point(*problem_, s_.here.v, s_.p, s_.free);
   return !doubt.empty() || has_tangent ? doubt : needs_tangent;
 }
 

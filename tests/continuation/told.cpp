@@ -56,6 +56,78 @@ TEST_CASE("the index of a parameter that there is not is told as an index from 0
                     "the free parameter has index 1, but the problem has 1 parameter, with index 0");
 }
 
+TEST_CASE("a start on a branch point is told to be one, with a tangent or without") {
+  // 0.1 (1 - S) - R S I, R S I - I: transcritical at R = 1, S = 1, I = 0
+  const auto epidemic = from_functions(2, {{"R", "", 1}}, [](In u, In p, Out F) {
+    F << 0.1 * (1 - u[0]) - p[0] * u[0] * u[1], p[0] * u[0] * u[1] - u[1];
+  });
+  for (const Vector& tangent : {Vector(), Vector{{0.0, 0.0, 1.0}}, Vector{{1.0, -0.1, 1.0}}}) {
+    const Branch branch =
+        trace(epidemic, {.u = Vector{{1.0, 0.0}}, .p = Vector{{1.0}}, .tangent = tangent}, window(0.5, 2));
+    CAPTURE(branch.stop.message);
+    CHECK(branch.stop.reason == StopReason::start_failed);
+    CHECK(says(branch.stop.message, "it is a branch point"));
+    CHECK(says(branch.stop.message, "start beside it"));
+    CHECK_FALSE(says(branch.stop.message, "needs a tangent"));
+  }
+  const Branch beside = trace(epidemic, {.u = Vector{{1.0, 0.0}}, .p = Vector{{0.7}}}, window(0.5, 2),
+                              {branch_point_monitor()});
+  REQUIRE(beside.events.size() == 1);
+  CHECK(std::abs(beside.events[0].point.parameter - 1) < 1e-9);
+}
+
+TEST_CASE("sums that are conserved are named, one or two") {
+  const auto exchange = from_functions(2, {{"k", "", 1}}, [](In u, In p, Out F) {
+    F << -p[0] * u[0] + 2 * u[1], p[0] * u[0] - 2 * u[1];
+  });
+  for (const double b : {1.0, 1.3}) {
+    const Branch branch = trace(exchange, {.u = Vector{{2.0, b}}, .p = Vector{{1.0}}}, window(0.5, 2));
+    CAPTURE(b, branch.stop.message);
+    CHECK(branch.stop.reason != StopReason::boundary);
+    CHECK(says(branch.stop.message, "F[0] + F[1] = 0 for all u and p around"));
+    CHECK(says(branch.stop.message, "a set of 1 dimension more than a branch"));
+    CHECK(says(branch.stop.message, "conserved"));
+    CHECK_FALSE(says(branch.stop.message, "needs a tangent"));
+  }
+  // Michaelis and Menten's cycle: the sums of enzyme, E + C, and of substrate, S + C + P
+  const auto enzyme = from_functions(4, {{"k", "", 1}}, [](In x, In p, Out F) {
+    const double a = p[0] * x[0] * x[1], b = x[2], c = 0.5 * x[2], d = 0.3 * x[3];
+    F << -a + b + d, -a + b + c, a - b - c, c - d;
+  });
+  const Branch branch = trace(enzyme, {.u = Vector{{1, 1, 1, 1}}, .p = Vector{{1.0}}}, window(0.5, 2));
+  CAPTURE(branch.stop.message);
+  CHECK(branch.stop.reason != StopReason::boundary);
+  CHECK(says(branch.stop.message, "a set of 2 dimensions more than a branch"));
+  CHECK(says(branch.stop.message, "F[1] + F[2] = 0"));
+  CHECK_FALSE(says(branch.stop.message, "needs a tangent"));
+  // with the values of the sums in their places all is right: C = E0 - E, S = S0 - C - P
+  const auto held = from_functions(4, {{"k", "", 1}}, [](In x, In p, Out F) {
+    const double a = p[0] * x[0] * x[1], b = x[2], c = 0.5 * x[2], d = 0.3 * x[3];
+    F << -a + b + d, x[1] + x[2] - 2, x[0] + x[2] + x[3] - 3, c - d;
+  });
+  CHECK(trace(held, {.u = Vector{{1, 1, 1, 1}}, .p = Vector{{1.0}}}, window(0.5, 2)).stop.reason ==
+        StopReason::boundary);
+}
+
+TEST_CASE("a symmetry is no conserved sum, and a fold no branch point") {
+  const auto ring = from_functions(
+      2, {{"mu", "", 1}}, [](In x, In p, Out F) { F = (p[0] - x.squaredNorm()) * x; },
+      [](In x, In p, Eigen::Ref<Matrix> J) {
+        J = -2 * x * x.transpose();
+        J.diagonal().array() += p[0] - x.squaredNorm();
+      });
+  const Branch branch = trace(ring, {.u = Vector{{1.0, 0.0}}, .p = Vector{{1.0}}}, window(0.5, 2));
+  CAPTURE(branch.stop.message);
+  CHECK(says(branch.stop.message, "phase condition"));
+  CHECK_FALSE(says(branch.stop.message, "conserved"));
+  const auto parabola =
+      from_functions(1, {{"p", ""}}, [](In u, In p, Out F) { F[0] = p[0] - u[0] * u[0]; });
+  const Branch fold = trace(parabola, {.u = Vector{{0.0}}, .p = Vector{{0.0}}}, window(-1, 1));
+  CAPTURE(fold.stop.message);
+  CHECK(says(fold.stop.message, "needs a tangent"));
+  CHECK_FALSE(says(fold.stop.message, "branch point, where"));
+}
+
 TEST_CASE("a parameter among the unknowns of a curve is refused as the free one, whatever its scale") {
   const auto problem = from_functions(1, {{"mu", ""}, {"lambda", "", 1}}, [](In u, In p, Out F) {
     F[0] = p[0] + p[1] * u[0] - std::pow(u[0], 3);
