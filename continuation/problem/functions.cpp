@@ -1,17 +1,19 @@
 #include <arcslip/continuation/problem/functions.hpp>
 
+#include <arcslip/continuation/problem/difference.hpp>
 #include <arcslip/continuation/problem/linear_solver.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 namespace arcslip::continuation {
 namespace {
-
-constexpr int shorter_differences = 4;
 
 double central_step(double x, double scale) {
   return std::cbrt(2.2e-16) * std::max(std::abs(x), scale);
@@ -28,8 +30,7 @@ class FunctionEvaluator final : public Evaluator, private Operator {
         u_(f_->size),
         p_(f_->parameters.size()),
         F_(f_->size),
-        plus_(f_->size),
-        minus_(f_->size) {
+        beside_{Vector(f_->size), Vector(f_->size)} {
     if (f_->sparse_jacobian)
       J_ = SparseMatrix(f_->size, f_->size);
     else if (f_->apply_jacobian)
@@ -45,26 +46,11 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     if (F_.size() != f_->size) return Evaluated::failed;
     if (!F_.allFinite()) return Evaluated::outside_domain;
     if (needs == Needs::residual) return Evaluated::ok;
-    if (auto* sparse = std::get_if<SparseMatrix>(&J_)) {
-      f_->sparse_jacobian(u_, p_, *sparse);
-      if (sparse->rows() != f_->size || sparse->cols() != f_->size)
-        throw std::runtime_error("the sparse Jacobian is " + std::to_string(sparse->rows()) + " x " +
-                                 std::to_string(sparse->cols()) + " for " + std::to_string(f_->size) +
-                                 " unknowns");
-      if (!sparse->isCompressed()) sparse->makeCompressed();
-      return finite(*sparse) ? Evaluated::ok : Evaluated::outside_domain;
-    }
-    auto* J = std::get_if<Matrix>(&J_);
-    if (!J) {
-      u_of_J_ = u_;
-      p_of_J_ = p_;
-      return Evaluated::ok;
-    }
-    if (f_->jacobian)
-      f_->jacobian(u_, p_, *J);
-    else
-      for (Eigen::Index i = 0; i < u_.size(); ++i) difference(u_[i], f_->scales[i], J->col(i));
-    return J->allFinite() ? Evaluated::ok : Evaluated::outside_domain;
+    if (auto* sparse = std::get_if<SparseMatrix>(&J_)) return fill(*sparse);
+    if (auto* dense = std::get_if<Matrix>(&J_)) return fill(*dense);
+    u_of_J_ = u_;
+    p_of_J_ = p_;
+    return Evaluated::ok;
   }
 
   const Vector& residual() const override { return F_; }
@@ -74,7 +60,8 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     if (f_->derivative)
       f_->derivative(u_, p_, k, dF);
     else
-      difference(p_[k], f_->parameters[static_cast<std::size_t>(k)].change(), dF);
+      difference(p_[k], central_step(p_[k], f_->parameters[static_cast<std::size_t>(k)].change()),
+                 piece_of_differences(), dF);
   }
 
   bool second_derivative(In w, In v, In q, Out du, Out dp) const override {
@@ -101,48 +88,76 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     return static_cast<bool>(f_->apply_transposed_jacobian);
   }
 
-  // dF/dx by central differences, x an entry of u_ or p_; at an edge of the domain by one-sided differences,
-  // [-3 F + 4 F(h) - F(2h)] / 2h, and between two edges with shorter steps.
-  void difference(double& x, double scale, Out dF) const {
+  Evaluated fill(SparseMatrix& J) {
+    f_->sparse_jacobian(u_, p_, J);
+    if (J.rows() != f_->size || J.cols() != f_->size)
+      throw std::runtime_error("the sparse Jacobian is " + std::to_string(J.rows()) + " x " +
+                               std::to_string(J.cols()) + " for " + std::to_string(f_->size) + " unknowns");
+    if (!J.isCompressed()) J.makeCompressed();
+    return finite(J) ? Evaluated::ok : Evaluated::outside_domain;
+  }
+
+  Evaluated fill(Matrix& J) {
+    if (f_->jacobian) {
+      f_->jacobian(u_, p_, J);
+    } else {
+      const auto here = piece_of_differences();
+      for (Eigen::Index i = 0; i < u_.size(); ++i)
+        difference(u_[i], central_step(u_[i], f_->scales[i]), here, J.col(i));
+    }
+    return J.allFinite() ? Evaluated::ok : Evaluated::outside_domain;
+  }
+
+  // The piece that differences at the point stay in. None without `piece`, or where it throws: what it throws
+  // is told by piece().
+  std::optional<std::uint64_t> piece_of_differences() const {
+    if (!f_->piece) return {};
+    try {
+      return f_->piece(u_, p_);
+    } catch (...) {
+      return {};
+    }
+  }
+
+  // dF/dx by a difference of step h or shorter, x an entry of u_ or p_: of the piece `here` of F, if any, and
+  // within the domain. A piece without room, as a number of its own for the corner itself, has the derivative
+  // of what is around it.
+  void difference(double& x, double h, std::optional<std::uint64_t> here, Out dF) const {
     const double at = x;
     std::exception_ptr thrown;
-    const auto residual = [&](double distance, Vector& F) {
+    bool within = here.has_value();
+    const auto go = [&](std::size_t i, double distance) {
+      bool usable = false;
       x = at + distance;
       try {
-        f_->residual(u_, p_, F);
+        if (!within || f_->piece(u_, p_) == *here) {
+          f_->residual(u_, p_, beside_[i]);
+          usable = beside_[i].allFinite();
+        }
       } catch (...) {
         thrown = std::current_exception();
-        x = at;
-        return false;
       }
       x = at;
-      return F.allFinite();
+      return usable;
     };
-    double h = central_step(at, scale);
-    for (int k = 0; k < shorter_differences; ++k, h /= 16) {
-      const bool above = residual(h, plus_), below = residual(-h, minus_);
-      if (above && below) {
-        dF = (plus_ - minus_) / (2 * h);
-        return;
-      }
-      if (above && residual(2 * h, minus_)) {
-        dF = (4 * plus_ - minus_ - 3 * F_) / (2 * h);
-        return;
-      }
-      if (below && residual(-2 * h, plus_)) {
-        dF = (3 * F_ + plus_ - 4 * minus_) / (2 * h);
-        return;
-      }
+    auto quotient = difference_within_piece(h, go, AtEnd::one_sided);
+    if (!quotient && std::exchange(within, false))
+      quotient = difference_within_piece(h, go, AtEnd::one_sided);
+    if (!quotient) {
+      if (thrown) std::rethrow_exception(thrown);
+      dF.setConstant(std::numeric_limits<double>::quiet_NaN());
+    } else if (quotient->central()) {
+      dF = (beside_[0] - beside_[1]) / (2 * quotient->distance[0]);
+    } else {
+      dF = quotient->weight[0] * (beside_[0] - F_) + quotient->weight[1] * (beside_[1] - F_);
     }
-    if (thrown) std::rethrow_exception(thrown);
-    dF.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
 
   std::shared_ptr<const Functions> f_;
   mutable Vector u_, p_;
   Vector u_of_J_, p_of_J_;  // the point of the operator, fixed while residuals are evaluated elsewhere
   Vector F_;
-  mutable Vector plus_, minus_;
+  mutable std::array<Vector, 2> beside_;
   Jacobian J_;
 };
 

@@ -9,7 +9,8 @@
 //   auto bratu = from_functions({.size = n, .parameters = {{"lambda", "", 0}}, .residual = residual,
 //                                .sparse_jacobian = jacobian});
 //
-// Derivatives that are not given are approximated by central differences.
+// Derivatives that are not given are approximated by central differences, within the smooth piece of F:
+// beside a kink by one-sided ones.
 
 #include <arcslip/continuation/problem/problem.hpp>
 

@@ -47,3 +47,23 @@ TEST_CASE("at the end of a piece a difference quotient is one-sided, and of seco
     }
   CHECK_FALSE(slope(0, 0, 1));
 }
+
+TEST_CASE("a quotient of F itself takes the whole step to one side before any shorter one") {
+  using arcslip::continuation::AtEnd;
+  const double h = 1e-2;
+  for (const auto& [lower, upper] : {std::pair{-1.0, 0.0}, std::pair{0.0, 1.0}, std::pair{-1e-9, 1.0}}) {
+    std::array<double, 2> f{};
+    const auto quotient = difference_within_piece(
+        h,
+        [&, lower = lower, upper = upper](std::size_t i, double distance) {
+          f[i] = std::exp(distance);
+          return lower <= distance && distance <= upper;
+        },
+        AtEnd::one_sided);
+    REQUIRE(quotient);
+    CHECK(std::max(std::abs(quotient->distance[0]), std::abs(quotient->distance[1])) == 2 * h);
+    CHECK_FALSE(quotient->central());
+    const double found = quotient->here + quotient->weight[0] * f[0] + quotient->weight[1] * f[1];
+    CHECK(std::abs(found - 1) < h * h / 2.5);  // h^2 / 3
+  }
+}
