@@ -101,6 +101,9 @@ constexpr int finer = 3, coarser = 3;  // steps than the first one
 constexpr double same = 0.2;           // of e, from step to step
 constexpr double one_sided = 0.25;     // of e: the most by which the differences to the two sides may differ
 constexpr double roundings = 1e2;      // of F, which a change along d has to exceed
+constexpr double next_share = 1e-4, least_share = 1e-13;  // of the scale of p
+constexpr double least_change = 0.1;                      // of the given one
+constexpr double looks_reach = 512;                       // of the steps on both sides of one: ratio^finer
 
 // +-(1/2 .. 1), without a pattern.
 double without_pattern(Eigen::Index j) {
@@ -141,15 +144,7 @@ class Doubt {
       if (by_unknowns.wrong) return name(by_unknowns, d);
       if (by_unknowns.right) break;
     }
-    const double scale = parameter().change();
-    for (const bool typical : {true, false}) {
-      Vector d = Vector::Zero(n_ + 1);
-      d[n_] = typical ? std::max(std::abs(p_[free_]), scale) : std::abs(p_[free_]);
-      const Verdict by_parameter = judge(d);
-      if (by_parameter.wrong) return name(by_parameter, d);
-      if (by_parameter.right) break;
-    }
-    return {};
+    return find_by_parameter();
   }
 
  private:
@@ -158,6 +153,27 @@ class Doubt {
     Eigen::Index row = 0;
     double step = 0;
   };
+
+  // The scale of p, as of a wide window, may be far longer than what F bends over, so that differences of all
+  // steps are wrong alike. So dF/dp is wrong only where shorter ones, down to those of |p|, agree with it no
+  // better. Where F changes far less over these than by the given dF/dp they blame nobody: that may be
+  // rounding, or as of p^3 at p = 0, where a given 1e-10 is right over longer steps.
+  JacobianError find_by_parameter() {
+    const double p = std::abs(p_[free_]), size = std::max(p, parameter().change());
+    Verdict wrong;
+    Vector along = Vector::Zero(n_ + 1);
+    agreed_.setConstant(n_, false);
+    for (double share = 1; share > least_share && share * size * looks_reach > p; share *= next_share) {
+      Vector d = Vector::Zero(n_ + 1);
+      d[n_] = share * size;
+      const Verdict found = judge(d, share < 1);
+      if (found.right) return {};
+      if (!found.wrong) continue;
+      wrong = found;
+      along = d;
+    }
+    return wrong.wrong && !agreed_[wrong.row] ? name(wrong, along) : JacobianError{};
+  }
 
   const Parameter& parameter() const { return problem_.parameters()[static_cast<std::size_t>(free_)]; }
 
@@ -198,10 +214,19 @@ class Doubt {
     return true;
   }
 
-  Verdict judge(const Vector& d) {
+  // Notes the rows that agree.
+  bool compare() {
+    for (Eigen::Index i = 0; i < n_; ++i)
+      agreed_[i] = agreed_[i] || (F_d_[i] != 0 && relative(i) <= largest_jacobian_error);
+    return agrees();
+  }
+
+  // only_changing: rows that hardly change are not judged.
+  Verdict judge(const Vector& d, bool only_changing = false) {
     multiply(d);
     if (d.isZero(0) || !given_.allFinite()) return {};
-    if (difference(d, first_step) && agrees()) return {.right = true};
+    agreed_.resize(n_);
+    if (difference(d, first_step) && compare()) return {.right = true};
     struct Look {
       bool usable = false;
       Vector error, bend, size, rounding;
@@ -211,6 +236,7 @@ class Doubt {
       Look& now = looks.emplace_back();
       now.usable = difference(d, first_step * std::pow(ratio, k));
       if (!now.usable) continue;
+      compare();
       now.error = given_ - F_d_;
       now.bend = bend_;
       now.rounding = rounding_;
@@ -226,6 +252,7 @@ class Doubt {
         const double e = std::abs(now.error[i]);
         if (!(e > largest * now.size[i]) || now.bend[i] > one_sided * e ||
             !(e > roundings * below.rounding[i]) ||
+            (only_changing && std::abs(given_[i] - now.error[i]) < least_change * std::abs(given_[i])) ||
             std::abs(below.error[i] - now.error[i]) > same * e ||
             std::abs(above.error[i] - now.error[i]) > same * e)
           continue;
@@ -271,6 +298,7 @@ class Doubt {
   std::unique_ptr<Evaluator> here_, beside_;
   Vector u_, p_, at_u_, at_p_, F_p_, plus_, F_d_, bend_, rounding_, given_;
   std::uint64_t piece_ = 0;
+  Eigen::Array<bool, Eigen::Dynamic, 1> agreed_;  // rows, with any difference
 };
 
 }  // namespace

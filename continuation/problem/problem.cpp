@@ -12,6 +12,10 @@ Evaluated Evaluator::test_piece(In u, In p, std::uint64_t piece, PieceTest, bool
   return result;
 }
 
+std::shared_ptr<const Problem> Problem::with_scale(int, double) const {
+  return nullptr;
+}
+
 std::unique_ptr<LinearSolver> Problem::linear_solver() const {
   return nullptr;
 }

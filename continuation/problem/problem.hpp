@@ -145,6 +145,10 @@ class Problem {
     return nullptr;
   }
 
+  /// The same problem with this scale of parameter k, as of its window, which its own differences go by.
+  /// Null, the default: it makes none.
+  virtual std::shared_ptr<const Problem> with_scale(int k, double scale) const;
+
   /// The preferred linear solver. Null: the default for the kind of its Jacobian.
   virtual std::unique_ptr<LinearSolver> linear_solver() const;
 };

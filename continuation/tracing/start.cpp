@@ -144,9 +144,10 @@ std::shared_ptr<const Problem> scaled_to_window(std::shared_ptr<const Problem> p
   if (!problem || free < 0 || index >= problem->parameters().size()) return problem;  // rejected elsewhere
   const Parameter& parameter = problem->parameters()[index];
   if (parameter.scale != 0) return problem;
-  const double width = std::min(upper, parameter.upper) - std::max(lower, parameter.lower);
-  return std::make_shared<const ScaledProblem>(std::move(problem), index,
-                                               std::clamp(width, smallest_width, largest_width));
+  const double width = std::clamp(std::min(upper, parameter.upper) - std::max(lower, parameter.lower),
+                                  smallest_width, largest_width);
+  if (auto scaled = problem->with_scale(free, width)) return scaled;
+  return std::make_shared<const ScaledProblem>(std::move(problem), index, width);
 }
 
 }  // namespace arcslip::continuation

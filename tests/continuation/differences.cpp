@@ -1,8 +1,10 @@
-// Derivatives that a problem is not given: within the pieces of F.
+// Derivatives that a problem is not given: within the pieces of F, and by steps that fit the parameter.
 
 #include "catch.hpp"
 
 #include "continuation/problems.hpp"
+
+#include <arcslip/continuation/problem/jacobian_check.hpp>
 
 #include <Eigen/LU>
 
@@ -243,4 +245,127 @@ TEST_CASE("each kink of 500 random branches is found without a Jacobian, with th
     }
   }
   CHECK(kinks > 1000);
+}
+
+namespace {
+
+// dF/dp of one equation at (u, p) by the problem's own differences, and the number of residuals.
+struct Difference {
+  double value;
+  int residuals;
+};
+Difference by_differences(const std::function<double(double)>& f, double u, double p, double scale) {
+  int residuals = 0;
+  const auto problem = from_functions({.size = 1,
+                                       .parameters = {parameter("p", 0, scale)},
+                                       .residual = [&](In v, In q, Out F) {
+                                         ++residuals;
+                                         F[0] = v[0] - f(q[0]);
+                                       }});
+  const auto at = problem->evaluator();
+  REQUIRE(at->move_to(Vector{{u}}, Vector{{p}}, Needs::residual) == Evaluated::ok);
+  residuals = 0;
+  Vector dF(1);
+  at->parameter_derivative(0, dF);
+  return {-dF[0], residuals};
+}
+
+}  // namespace
+
+TEST_CASE("dF/dp by differences is right to 1e-8 where p is small in a wide window") {
+  for (const double p : {1e-6, 1e-3, 1.0, 1e3})
+    for (const double scale : {0.0, 1.0, 1e6})
+      for (const double n : {1.0, 2.0, 3.0}) {
+        const auto f = [=](double q) { return 1 / (1 + std::pow(q, -n)); };
+        const double known = n * std::pow(p, n - 1) / std::pow(1 + std::pow(p, n), 2);
+        const Difference found = by_differences(f, f(p), p, scale);
+        CAPTURE(p, scale, n, found.value, known);
+        // F is 1 to rounding beyond p = 1: its differences over steps of p have that rounding.
+        const double rounding = 4 * 2.2e-16 * f(p) / (6e-6 * p);
+        CHECK(std::abs(found.value - known) < 1e-8 * known + rounding);
+      }
+}
+
+TEST_CASE("dF/dp by differences is right at p = 0, whatever the width over which F bends") {
+  for (const double width : {1e-6, 1e-4, 1e-2, 1.0, 1e3})
+    for (const double scale : {1.0, 1e3}) {
+      const Difference found = by_differences([=](double q) { return std::atan(q / width); }, 0, 0, scale);
+      CAPTURE(width, scale, found.value);
+      CHECK(found.value * width == Approx(1).epsilon(1e-8));
+      CHECK(found.residuals <= 18);
+    }
+}
+
+TEST_CASE("dF/dp takes two residuals where F is seen to be smooth over the scale, else four if it is") {
+  const auto smooth = [](double q) { return std::sin(0.5 + q); };
+  CHECK(by_differences(smooth, 0, 0.4, 1).residuals == 2);
+  CHECK(by_differences(smooth, 0, 7, 1).residuals == 2);
+  CHECK(by_differences(smooth, 0, 1e-3, 1).residuals == 2);
+  CHECK(by_differences(smooth, 0, 1e-6, 1).residuals == 4);
+  CHECK(by_differences(smooth, 0, 0, 1).residuals == 4);
+  for (const double p : {0.0, 1e-6, 1e-3, 0.4}) {
+    const Difference found = by_differences(smooth, 0, p, 1);
+    CHECK(std::abs(found.value - std::cos(0.5 + p)) < 1e-9);
+  }
+}
+
+TEST_CASE("rounding of F costs dF/dp by differences no digits that it has") {
+  // Terms of 1e3 whose rounding is 1e-13: over 6e-6 scales 1e-8, over shorter steps more.
+  for (const double p : {0.0, 1e-9, 1e-6, 1e-3}) {
+    const auto f = [](double q) { return 1e3 * std::exp(1e-3 * q) - 1e3; };
+    const Difference found = by_differences(f, 0, p, 1);
+    CAPTURE(p, found.residuals);
+    CHECK(std::abs(found.value - std::exp(1e-3 * p)) < 1e-7);
+  }
+}
+
+TEST_CASE("the differences of a trace go by its window: the unit of a parameter does not matter") {
+  for (const double unit : {1e-9, 1.0, 1e9}) {
+    const auto problem = from_functions(1, {{"p", "", 0}}, [=](In u, In p, Out F) {
+      F[0] = 1 + u[0] - std::exp(p[0] / unit);  // of terms of 1 that cancel
+    });
+    const Branch branch =
+        trace(problem, {.u = Vector{{0.0}}, .p = Vector{{0.0}}}, {.lower = -unit, .upper = unit});
+    CAPTURE(unit);
+    CHECK(branch.stop.reason == StopReason::boundary);
+    CHECK(branch.warnings.empty());
+    for (const Point& point : branch.points)
+      CHECK(point.tangent[0] / point.tangent[1] * unit ==
+            Approx(std::exp(point.parameter / unit)).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("u = p^n / (1 + p^n) from 1e-6 to 1e6 blames no derivative that is right") {
+  for (const double n : {1.0, 3.0}) {
+    const auto problem = from_functions(1, {{"p", "", 1e-6}}, [=](In u, In p, Out F) {
+      F[0] = u[0] - 1 / (1 + std::pow(p[0], -n));
+    });
+    const Branch branch =
+        trace(problem, {.u = Vector{{0.0}}, .p = Vector{{1e-6}}}, {.lower = 1e-6, .upper = 1e6});
+    CAPTURE(n, branch.stop.message);
+    CHECK(branch.warnings.empty());
+    CHECK(branch.stop.reason == StopReason::boundary);
+    CHECK(branch.points.back().parameter == 1e6);
+    CHECK(std::abs(branch.points.back().u[0] - 1 / (1 + std::pow(1e6, -n))) < 1e-12);
+  }
+}
+
+TEST_CASE("a wrong dF/dp is named where the window is far wider than p, and a right one is not") {
+  for (const double p : {0.0, 1e-6, 1e-2, 1.0})
+    for (const double factor : {1.0, 1.001, 0.0, -1.0}) {
+      const auto problem = from_functions(
+          2, {parameter("p", 0, 1e6)},
+          [](In u, In q, Out F) { F << u[0] - q[0] / (1 + q[0] * q[0]), u[1] - q[0]; },
+          [](In, In, Eigen::Ref<Matrix> J) { J.setIdentity(); },
+          [=](In, In q, int, Out dF) {
+            const double d = 1 + q[0] * q[0];
+            dF << -factor * (1 / d - 2 * q[0] * q[0] / (d * d)), -1;
+          });
+      const JacobianError found = doubt_jacobian(*problem, Vector{{p / (1 + p * p), p}}, Vector{{p}}, 0);
+      CAPTURE(p, factor, found.message);
+      if (factor == 1 || p == 1)  // at p = 1 dF/dp = 0
+        CHECK(found.message.empty());
+      else
+        CHECK(found.message.find("the Jacobian is wrong: dF[0]/d(p) is given as") == 0);
+    }
 }
