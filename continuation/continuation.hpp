@@ -7,6 +7,7 @@
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
+#include <arcslip/continuation/problem/choices.hpp>
 #include <arcslip/continuation/problem/functions.hpp>
 #include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/continuation/problem/linear_solver.hpp>

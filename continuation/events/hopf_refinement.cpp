@@ -17,14 +17,14 @@ namespace {
 using Complex = std::complex<double>;
 using ComplexVector = Eigen::VectorXcd;
 
-constexpr int newton_steps = 8;
-constexpr double still_shrinking = 0.5;      // of |Re mu|, from step to step: more is rounding
-constexpr double converged = 1e-9;           // |Re mu|, relative to omega
-constexpr double farthest = 1e-3;            // from the first place, relative to 1 + |u|, and of omega
-constexpr double separate = 1e-10;           // w^H v, |v| = |w| = 1: below, the pair is not separate
+constexpr int refining_steps = 8;
+constexpr double still_shrinking = 0.5;         // of |Re mu|, from step to step: more is rounding
+constexpr double on_axis = 1e-9;                // |Re mu|, relative to omega
+constexpr double farthest = 1e-3;               // from the first place, relative to 1 + |u|, and of omega
+constexpr double separate = 1e-10;              // w^H v, |v| = |w| = 1: below, the pair is not separate
 constexpr double longest_difference = 1. / 64;  // relative to u, or to its scales
-constexpr int halvings = 10;                 // of it
-constexpr double getting_worse = 4;          // of the error of an extrapolation, as rounding takes over
+constexpr int halvings = 10;                    // of it
+constexpr double getting_worse = 4;             // of the error of an extrapolation, as rounding takes over
 
 // w . d/dh F(u + h d) by central differences, extrapolated to h = 0 (Ridders, Adv. Eng. Softw. 4, 1982): the
 // value of the least estimated error.
@@ -110,7 +110,7 @@ class HopfRefinement {
     const double given = frequency_;
     Vector best;
     double least = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < newton_steps; ++k) {
+    for (int k = 0; k < refining_steps; ++k) {
       if (!evaluate()) return {};
       const double miss = std::abs(mu_.real());
       if (miss >= still_shrinking * least) {
@@ -126,7 +126,7 @@ class HopfRefinement {
       frequency_ = mu_.imag() + ds * mu_rate_.imag();
       if (!near(first, given)) return {};
     }
-    if (!(least <= converged * given)) return {};
+    if (!(least <= on_axis * given)) return {};
     x_ = best;
     if (!evaluate() || !near(first, given)) return {};
     return RefinedHopf{x_, mu_.imag(), right_};

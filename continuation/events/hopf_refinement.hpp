@@ -24,9 +24,9 @@
 namespace arcslip::continuation {
 
 struct RefinedHopf {
-  Vector x;             // (u, p), n + 1
-  double frequency;     // > 0
-  Eigen::VectorXcd z;   // J z = i frequency z
+  Vector x;            // (u, p), n + 1
+  double frequency;    // > 0
+  Eigen::VectorXcd z;  // J z = i frequency z
 };
 
 /// From a place near the Hopf point of a pair that is separate from the others, with its frequency and

@@ -46,7 +46,7 @@ class FunctionEvaluator final : public Evaluator, private Operator {
         beside_{Vector(f_->size), Vector(f_->size)},
         dF_(f_->size),
         search_(f_->size) {
-    if (f_->sparse_jacobian)
+    if (f_->sparse_jacobian || f_->choosing.sparse_jacobian)
       J_ = SparseMatrix(f_->size, f_->size);
     else if (f_->apply_jacobian)
       J_ = static_cast<const Operator*>(this);
@@ -57,7 +57,8 @@ class FunctionEvaluator final : public Evaluator, private Operator {
   Evaluated move_to(In u, In p, Needs needs) override {
     u_ = u;
     p_ = p;
-    f_->residual(u_, p_, F_);
+    choices_.anew();
+    residual_at_point(F_);
     if (F_.size() != f_->size) return Evaluated::failed;
     if (!F_.allFinite()) return Evaluated::outside_domain;
     if (needs == Needs::residual) return Evaluated::ok;
@@ -72,7 +73,10 @@ class FunctionEvaluator final : public Evaluator, private Operator {
   const Jacobian& jacobian() const override { return J_; }
 
   void parameter_derivative(int k, Out dF) const override {
-    if (f_->derivative)
+    choices_.keep();
+    if (f_->choosing.derivative)
+      f_->choosing.derivative(u_, p_, choices_, k, dF);
+    else if (f_->derivative)
       f_->derivative(u_, p_, k, dF);
     else
       parameter_difference(p_[k], (*parameters_)[static_cast<std::size_t>(k)], dF);
@@ -84,13 +88,18 @@ class FunctionEvaluator final : public Evaluator, private Operator {
   }
 
   ByDifferences by_differences() const override {
-    const bool given = f_->jacobian || f_->sparse_jacobian || f_->apply_jacobian;
-    return {!given, !f_->derivative};
+    const bool given = f_->jacobian || f_->sparse_jacobian || f_->apply_jacobian || f_->choosing.jacobian ||
+                       f_->choosing.sparse_jacobian;
+    return {!given, !(f_->derivative || f_->choosing.derivative)};
   }
 
-  std::uint64_t piece() const override { return f_->piece ? f_->piece(u_, p_) : 0; }
+  std::uint64_t piece() const override {
+    if (f_->choosing.residual) return choices_.piece();
+    return f_->piece ? f_->piece(u_, p_) : 0;
+  }
 
-  Evaluated test_piece(In u, In p, std::uint64_t piece, PieceTest, bool& inside) override {
+  Evaluated test_piece(In u, In p, std::uint64_t piece, PieceTest test, bool& inside) override {
+    if (f_->choosing.residual) return Evaluator::test_piece(u, p, piece, test, inside);
     inside = !f_->piece || f_->piece(u, p) == piece;
     return Evaluated::ok;
   }
@@ -102,8 +111,20 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     return static_cast<bool>(f_->apply_transposed_jacobian);
   }
 
+  // F at (u_, p_), by the choices as they are: begun anew or kept.
+  void residual_at_point(Vector& F) const {
+    if (f_->choosing.residual)
+      f_->choosing.residual(u_, p_, choices_, F);
+    else
+      f_->residual(u_, p_, F);
+  }
+
   Evaluated fill(SparseMatrix& J) {
-    f_->sparse_jacobian(u_, p_, J);
+    choices_.keep();
+    if (f_->choosing.sparse_jacobian)
+      f_->choosing.sparse_jacobian(u_, p_, choices_, J);
+    else
+      f_->sparse_jacobian(u_, p_, J);
     if (J.rows() != f_->size || J.cols() != f_->size)
       throw std::runtime_error("the sparse Jacobian is " + std::to_string(J.rows()) + " x " +
                                std::to_string(J.cols()) + " for " + std::to_string(f_->size) + " unknowns");
@@ -112,7 +133,10 @@ class FunctionEvaluator final : public Evaluator, private Operator {
   }
 
   Evaluated fill(Matrix& J) {
-    if (f_->jacobian) {
+    choices_.keep();
+    if (f_->choosing.jacobian) {
+      f_->choosing.jacobian(u_, p_, choices_, J);
+    } else if (f_->jacobian) {
       f_->jacobian(u_, p_, J);
     } else {
       const auto here = piece_of_differences();
@@ -165,8 +189,8 @@ class FunctionEvaluator final : public Evaluator, private Operator {
   }
 
   // dF/dx by a difference of step h or shorter, x an entry of u_ or p_: of the piece `here` of F, if any, and
-  // within the domain. A piece without room, as a number of its own for the corner itself, has the derivative
-  // of what is around it.
+  // within the domain. Where choices are kept F is smooth across the ends of its piece. A piece without room,
+  // as a number of its own for the corner itself, has the derivative of what is around it.
   std::optional<DifferenceQuotient> difference(double& x, double h, std::optional<std::uint64_t> here,
                                                Out dF) const {
     const double at = x;
@@ -175,9 +199,10 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     const auto go = [&](std::size_t i, double distance) {
       bool usable = false;
       x = at + distance;
+      choices_.keep();
       try {
         if (!within || f_->piece(u_, p_) == *here) {
-          f_->residual(u_, p_, beside_[i]);
+          residual_at_point(beside_[i]);
           usable = beside_[i].allFinite();
         }
       } catch (...) {
@@ -207,6 +232,7 @@ class FunctionEvaluator final : public Evaluator, private Operator {
   Vector F_;
   mutable std::array<Vector, 2> beside_;
   mutable Vector dF_;
+  mutable Choices choices_;
   mutable StepSearch search_;
   Jacobian J_;
 };
@@ -235,16 +261,32 @@ class FunctionProblem final : public Problem {
   Parameters parameters_;
 };
 
+// Throws unless there is one residual, and at most one Jacobian.
+void check_functions(const Functions& f) {
+  const ChoosingFunctions& choosing = f.choosing;
+  if (!f.residual && !choosing.residual) throw std::invalid_argument("a problem needs a residual function");
+  if (f.residual && choosing.residual)
+    throw std::invalid_argument("a problem has one residual function: with choices or without");
+  if (f.piece && choosing.residual)
+    throw std::invalid_argument("a residual with choices has its pieces by them: no `piece` besides");
+  if (!choosing.residual && (choosing.jacobian || choosing.sparse_jacobian || choosing.derivative))
+    throw std::invalid_argument("derivatives with choices require a residual that makes them");
+  if (!!f.jacobian + !!f.sparse_jacobian + !!f.apply_jacobian + !!choosing.jacobian +
+          !!choosing.sparse_jacobian >
+      1)
+    throw std::invalid_argument("a problem has at most one Jacobian: dense, sparse or matrix-free");
+  if (f.derivative && choosing.derivative)
+    throw std::invalid_argument("a problem has at most one dF/dp: with choices or without");
+  if (f.apply_transposed_jacobian && !f.apply_jacobian)
+    throw std::invalid_argument("apply_transposed_jacobian requires apply_jacobian");
+}
+
 }  // namespace
 
 std::shared_ptr<const Problem> from_functions(Functions f) {
   if (f.size < 1)
     throw std::invalid_argument("a problem has at least 1 unknown, not " + std::to_string(f.size));
-  if (!f.residual) throw std::invalid_argument("a problem needs a residual function");
-  if (!!f.jacobian + !!f.sparse_jacobian + !!f.apply_jacobian > 1)
-    throw std::invalid_argument("a problem has at most one Jacobian: dense, sparse or matrix-free");
-  if (f.apply_transposed_jacobian && !f.apply_jacobian)
-    throw std::invalid_argument("apply_transposed_jacobian requires apply_jacobian");
+  check_functions(f);
   if (f.scales.size() == 0) f.scales = Vector::Ones(f.size);
   if (f.scales.size() != f.size)
     throw std::invalid_argument(std::to_string(f.scales.size()) + " scales for " + std::to_string(f.size) +

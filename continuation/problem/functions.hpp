@@ -17,6 +17,7 @@
 // error of dF/dp is that of the rounding of F over the step, and 1e-8 relative, the cost 2 residuals a step.
 // The free parameter of a trace has by default the scale of its window.
 
+#include <arcslip/continuation/problem/choices.hpp>
 #include <arcslip/continuation/problem/problem.hpp>
 
 #include <functional>
@@ -40,6 +41,16 @@ using SecondFunction = std::function<void(In u, In p, In w, In v, In q, Out du, 
 /// The index of the smooth piece of F at (u, p), for a piecewise smooth F.
 using PieceFunction = std::function<std::uint64_t(In u, In p)>;
 
+/// Functions that make choices (choices.hpp), in place of those of the same name in `Functions` and of
+/// `piece`. The derivatives are called with the choices of the residual at (u, p): they are `made[call]`, and
+/// the same calls in the same order make them again.
+struct ChoosingFunctions {
+  std::function<void(In u, In p, Choices& choose, Out F)> residual{};
+  std::function<void(In u, In p, Choices& made, Eigen::Ref<Matrix> J)> jacobian{};
+  std::function<void(In u, In p, Choices& made, SparseMatrix& J)> sparse_jacobian{};
+  std::function<void(In u, In p, Choices& made, int k, Out dF)> derivative{};
+};
+
 /// The functions and properties of a problem; defaults are those of problem.hpp. At most one of the three
 /// Jacobians may be given; without one it is dense, by differences.
 struct Functions {
@@ -55,6 +66,7 @@ struct Functions {
   PieceFunction piece{};
   Vector scales{};  // n, or none: all 1
   MakeLinearSolver linear_solver{};
+  ChoosingFunctions choosing{};
 };
 
 /// Throws std::invalid_argument if something is missing or inconsistent.

@@ -66,7 +66,7 @@ JacobianError check_jacobian(const Problem& problem, In u, In p) {
     Eigen::Index row = 0;
     const double relative = (difference - column).cwiseAbs().maxCoeff(&row) / size;
     if (!(relative > worst.relative)) return;
-    worst = {static_cast<int>(row),        index, column[row], difference[row], relative,
+    worst = {static_cast<int>(row),          index, column[row], difference[row], relative,
              is_difference(*here, n, index), {}};
   };
   for (Eigen::Index j = 0; j < n; ++j) {
@@ -284,8 +284,12 @@ class Doubt {
     }
     if (std::isnan(error(begin, end)) || relative(verdict.row) <= largest_jacobian_error) return {};
     const Eigen::Index j = columns[begin];
-    JacobianError found{static_cast<int>(verdict.row), static_cast<int>(j),   given_[verdict.row] / d[j],
-                        F_d_[verdict.row] / d[j],      relative(verdict.row), is_difference(*here_, n_, j),
+    JacobianError found{static_cast<int>(verdict.row),
+                        static_cast<int>(j),
+                        given_[verdict.row] / d[j],
+                        F_d_[verdict.row] / d[j],
+                        relative(verdict.row),
+                        is_difference(*here_, n_, j),
                         {}};
     if (j == n_) found.column += free_;
     found.message = describe(found, problem_);

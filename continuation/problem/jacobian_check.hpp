@@ -11,9 +11,9 @@ namespace arcslip::continuation {
 struct JacobianError {
   int row = -1, column = -1;
   double given = 0, difference = 0;
-  double relative = 0;  // |given - difference| over the largest entry of the column and F's rounding
+  double relative = 0;          // |given - difference| over the largest entry of the column and F's rounding
   bool by_differences = false;  // the entry is itself a default difference (Evaluator::by_differences)
-  std::string message;  // one sentence for the user, empty if all entries agree
+  std::string message;          // one sentence for the user, empty if all entries agree
 };
 
 /// Checks all entries at (u, p), with steps in the scales of unknowns and parameters and 2 (n + parameters)

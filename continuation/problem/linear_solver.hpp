@@ -50,8 +50,8 @@ class LinearSolver {
   virtual void forget_pivots() {}
 
   /// Sign of the determinant of the bordered matrix, +1 or -1, if the solver provides it. It orients branches
-  /// across kinks and detects branch points and jumps between branches. Without it tangents are oriented by the
-  /// one before, and three further solves per point detect branch points and jumps where F is smooth.
+  /// across kinks and detects branch points and jumps between branches. Without it tangents are oriented by
+  /// the one before, and three further solves per point detect branch points and jumps where F is smooth.
   virtual std::optional<int> determinant_sign() const { return {}; }
 };
 

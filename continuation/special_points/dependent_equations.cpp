@@ -12,13 +12,13 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr Eigen::Index most_equations = 100;  // looked at: a singular value decomposition of this size
-constexpr int more_places = 3;                // than there are equations
+constexpr Eigen::Index most_equations = 100;        // looked at: a singular value decomposition of this size
+constexpr int more_places = 3;                      // than there are equations
 constexpr double far_shares[] = {0.1, 1e-2, 1e-3};  // of u and p, or of their scales: of the places looked at
-constexpr double dependence_rounding = 1e-12;  // singular values of F, in rows of equal size
-constexpr double rank_lost = 1e-8;         // of [J F_p], which may come from differences
-constexpr double rounding_of_sums = 1e-9;  // of the coefficients of a combination
-constexpr double least_pivot = 1e-4;       // of the largest coefficient
+constexpr double dependence_rounding = 1e-12;       // singular values of F, in rows of equal size
+constexpr double rank_lost = 1e-8;                  // of [J F_p], which may come from differences
+constexpr double rounding_of_sums = 1e-9;           // of the coefficients of a combination
+constexpr double least_pivot = 1e-4;                // of the largest coefficient
 constexpr Eigen::Index most_terms = 8, most_sums = 4;  // in a message
 
 // Between -1 and 1, without a pattern.

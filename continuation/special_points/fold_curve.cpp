@@ -299,10 +299,10 @@ class FoldSolver final : public LinearSolver {
 
 std::shared_ptr<const Problem> folds(std::shared_ptr<const Problem> problem, int along,
                                      MakeLinearSolver make_solver) {
-  const auto inner =
-      std::make_shared<const InnerProblem>(std::move(problem), along, std::move(make_solver));
-  return augmented(inner, {}, [inner] { return std::make_unique<FoldEvaluator>(inner); },
-                   [] { return std::make_unique<FoldSolver>(); });
+  const auto inner = std::make_shared<const InnerProblem>(std::move(problem), along, std::move(make_solver));
+  return augmented(
+      inner, {}, [inner] { return std::make_unique<FoldEvaluator>(inner); },
+      [] { return std::make_unique<FoldSolver>(); });
 }
 
 }  // namespace arcslip::continuation

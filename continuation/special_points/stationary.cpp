@@ -109,9 +109,7 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
     return std::nan("");
   }
   double cusp_function(In) const override { return transposed_ ? G_x_.dot(t_) : along(t_, *factors_.now()); }
-  double left_times_right() const override {
-    return transposed_ ? z_.head(n_).dot(t_.head(n_)) : 1;
-  }
+  double left_times_right() const override { return transposed_ ? z_.head(n_).dot(t_.head(n_)) : 1; }
 
  private:
   // t at the point of here_.

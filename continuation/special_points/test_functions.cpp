@@ -111,8 +111,7 @@ class ZeroEvaluator final : public Evaluator, public Operator {
     const double h = difference_step * std::max(std::abs(p_[k]), scale);
     q_ = p_;
     y_ = x_;
-    difference(
-        h, [&](double distance) { q_[k] = p_[k] + distance; }, dR.tail(m_));
+    difference(h, [&](double distance) { q_[k] = p_[k] + distance; }, dR.tail(m_));
   }
 
   std::uint64_t piece() const override { return here_.at().piece(); }
@@ -130,8 +129,7 @@ class ZeroEvaluator final : public Evaluator, public Operator {
     if (length == 0) return;
     const double h = difference_step * std::max(1.0, x_.cwiseQuotient(scales_).norm()) / length;
     q_ = p_;
-    difference(
-        h, [&](double distance) { y_ = x_ + distance * d; }, dg);
+    difference(h, [&](double distance) { y_ = x_ + distance * d; }, dg);
   }
 
  private:

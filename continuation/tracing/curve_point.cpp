@@ -197,8 +197,8 @@ bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePo
 
 Accepted accepted(Corrector& at, const CurvePoint& place) {
   const Eigen::Index n = place.v.size() - 1;
-  return {place.v.head(n), at.parameters(), place.tangent, place.arclength,
-          at.evaluator(),  at.factors(),    place.v[n],    at.scratch(),     at.free()};
+  return {place.v.head(n), at.parameters(), place.tangent, place.arclength, at.evaluator(),
+          at.factors(),    place.v[n],      at.scratch(),  at.free()};
 }
 
 void evaluate(const std::vector<Monitor>& monitors, Corrector& at, CurvePoint& place) {

@@ -215,8 +215,7 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::look_for_crossing() {
   const double inseparable = branch_point_step * (1 + main_.norm_u(s_.here.v));
   const bool apart = s_.step > inseparable;
   const auto crossed = counts_modes_ ? count_modes() : std::nullopt;
-  if (crossed && crossed->at_zero && apart)
-    return refuse(Rejected::branch_points, 1, 0, Outcome::unresolved);
+  if (crossed && crossed->at_zero && apart) return refuse(Rejected::branch_points, 1, 0, Outcome::unresolved);
   const bool turned = changes_determinant(crossed);
   int modes = turned ? 1 : 0;
   if (crossed && (crossed->count % 2 == 1) == turned) modes = crossed->count;

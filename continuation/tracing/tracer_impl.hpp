@@ -87,7 +87,7 @@ class Tracer::Impl {
   JacobianWatch jacobian_;
   Recorder record_;
   Trial trial_;
-  Vector row_, v_;  // n + 1
+  Vector row_, v_;            // n + 1
   long rejected_before_ = 0;  // steps, before the last point
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };

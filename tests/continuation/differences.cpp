@@ -204,13 +204,19 @@ struct RandomBranch {
   }
   double x_of(In u) const { return inverse_R.row(0).dot(u); }
 
-  Functions functions() const {
+  Functions functions(bool by_choices) const {
     Functions f;
     f.size = static_cast<int>(curves.size());
     f.parameters = {parameter("p", 0)};
     const auto self = std::make_shared<const RandomBranch>(*this);
-    f.residual = [=](In u, In p, Out F) { F = self->residual(u, p[0], self->part(self->x_of(u))); };
-    f.piece = [=](In u, In) { return self->part(self->x_of(u)); };
+    if (by_choices) {
+      f.choosing.residual = [=](In u, In p, Choices& choose, Out F) {
+        F = self->residual(u, p[0], choose.part(self->x_of(u), self->corners));
+      };
+    } else {
+      f.residual = [=](In u, In p, Out F) { F = self->residual(u, p[0], self->part(self->x_of(u))); };
+      f.piece = [=](In u, In) { return self->part(self->x_of(u)); };
+    }
     return f;
   }
 };
@@ -219,32 +225,31 @@ struct RandomBranch {
 
 TEST_CASE("each kink of 500 random branches is found without a Jacobian, with the tangents of both sides") {
   int kinks = 0;
-  for (unsigned seed = 0; seed < 500; ++seed) {
-    const RandomBranch known(seed);
-    const double p = known.value(0, -1, 0);
-    const Monitor end{.name = "end",
-                      .value = [&](const Accepted& now) { return known.x_of(now.u) - 1; },
-                      .terminal = true};
-    const Branch branch = trace(from_functions(known.functions()),
-                                {.u = known.u_at(-1),
-                                 .p = Vector{{p}},
-                                 .tangent = known.tangent(-1, 0)},
-                                window(-30, 30), {kink_monitor(), end});
-    CAPTURE(seed, branch.stop.message, branch.points.size());
-    CHECK(branch.stop.reason == StopReason::event);
-    CHECK(branch.warnings.empty());
-    const auto found = events_named(branch, "kink");
-    REQUIRE(found.size() == known.corners.size());
-    for (std::size_t k = 0; k < found.size(); ++k, ++kinks) {
-      const double corner = known.corners[k];
-      CHECK(std::abs(known.x_of(found[k].point.u) - corner) < 1e-9);
-      CHECK((found[k].point.u - known.u_at(corner)).norm() < 1e-8);
-      const Kink& kink = std::get<Kink>(found[k].data);
-      CHECK((kink.before - known.tangent(corner, k)).norm() < 1e-6);
-      CHECK((kink.after - known.tangent(corner, k + 1)).norm() < 1e-6);
+  for (unsigned seed = 0; seed < 500; ++seed)
+    for (const bool by_choices : {false, true}) {
+      const RandomBranch known(seed);
+      const double p = known.value(0, -1, 0);
+      const Monitor end{.name = "end",
+                        .value = [&](const Accepted& now) { return known.x_of(now.u) - 1; },
+                        .terminal = true};
+      const Branch branch = trace(from_functions(known.functions(by_choices)),
+                                  {.u = known.u_at(-1), .p = Vector{{p}}, .tangent = known.tangent(-1, 0)},
+                                  window(-30, 30), {kink_monitor(), end});
+      CAPTURE(seed, by_choices, branch.stop.message, branch.points.size());
+      CHECK(branch.stop.reason == StopReason::event);
+      CHECK(branch.warnings.empty());
+      const auto found = events_named(branch, "kink");
+      REQUIRE(found.size() == known.corners.size());
+      for (std::size_t k = 0; k < found.size(); ++k, ++kinks) {
+        const double corner = known.corners[k];
+        CHECK(std::abs(known.x_of(found[k].point.u) - corner) < 1e-9);
+        CHECK((found[k].point.u - known.u_at(corner)).norm() < 1e-8);
+        const Kink& kink = std::get<Kink>(found[k].data);
+        CHECK((kink.before - known.tangent(corner, k)).norm() < 1e-6);
+        CHECK((kink.after - known.tangent(corner, k + 1)).norm() < 1e-6);
+      }
     }
-  }
-  CHECK(kinks > 1000);
+  CHECK(kinks > 2000);
 }
 
 namespace {
@@ -256,12 +261,11 @@ struct Difference {
 };
 Difference by_differences(const std::function<double(double)>& f, double u, double p, double scale) {
   int residuals = 0;
-  const auto problem = from_functions({.size = 1,
-                                       .parameters = {parameter("p", 0, scale)},
-                                       .residual = [&](In v, In q, Out F) {
-                                         ++residuals;
-                                         F[0] = v[0] - f(q[0]);
-                                       }});
+  const auto problem = from_functions(
+      {.size = 1, .parameters = {parameter("p", 0, scale)}, .residual = [&](In v, In q, Out F) {
+         ++residuals;
+         F[0] = v[0] - f(q[0]);
+       }});
   const auto at = problem->evaluator();
   REQUIRE(at->move_to(Vector{{u}}, Vector{{p}}, Needs::residual) == Evaluated::ok);
   residuals = 0;
@@ -337,9 +341,8 @@ TEST_CASE("the differences of a trace go by its window: the unit of a parameter 
 
 TEST_CASE("u = p^n / (1 + p^n) from 1e-6 to 1e6 blames no derivative that is right") {
   for (const double n : {1.0, 3.0}) {
-    const auto problem = from_functions(1, {{"p", "", 1e-6}}, [=](In u, In p, Out F) {
-      F[0] = u[0] - 1 / (1 + std::pow(p[0], -n));
-    });
+    const auto problem = from_functions(
+        1, {{"p", "", 1e-6}}, [=](In u, In p, Out F) { F[0] = u[0] - 1 / (1 + std::pow(p[0], -n)); });
     const Branch branch =
         trace(problem, {.u = Vector{{0.0}}, .p = Vector{{1e-6}}}, {.lower = 1e-6, .upper = 1e6});
     CAPTURE(n, branch.stop.message);

@@ -89,8 +89,8 @@ TEST_CASE("the Hopf points of the Lorenz equations are as accurate as they are s
     for (const double s : {6.0, 10.0, 16.0, 40.0}) {
       const double b = 8.0 / 3, r = s * (s + b + 3) / (s - b - 1), x = std::sqrt(b);
       const auto problem = exact ? lorenz() : without_jacobian(lorenz());
-      const Branch branch = trace(problem, {Vector{{x, x, 1.0}}, Vector{{2.0, s, b}}, 0, 1},
-                                  window(2, 2 * r), hopf_monitors(*problem));
+      const Branch branch = trace(problem, {Vector{{x, x, 1.0}}, Vector{{2.0, s, b}}, 0, 1}, window(2, 2 * r),
+                                  hopf_monitors(*problem));
       CAPTURE(exact, s, branch.stop.message);
       REQUIRE(branch.events.size() == 1);
       CHECK(std::abs(branch.events[0].point.parameter / r - 1) < tolerance(exact));

@@ -159,9 +159,9 @@ TEST_CASE("a start on a fold is told to need a tangent, and one on a branch poin
       CAPTURE(u, branch.stop.message);
       CHECK(branch.stop.reason == StopReason::start_failed);
       const bool on_branch_point = problem == pitchfork && u == 0;
-      CHECK(branch.stop.message.find(on_branch_point ? "it is a branch point"
-                                                     : "a start needs a tangent (Start::tangent)") !=
-            std::string::npos);
+      CHECK(branch.stop.message.find(on_branch_point
+                                         ? "it is a branch point"
+                                         : "a start needs a tangent (Start::tangent)") != std::string::npos);
     }
   Start start{Vector{{0.0}}, Vector{{0.0}}, 0, 1, Vector{{1.0, 0.0}}};
   CHECK(trace(parabola, start, window(-1, 1)).stop.reason == StopReason::boundary);

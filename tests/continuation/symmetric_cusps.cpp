@@ -86,9 +86,9 @@ TEST_CASE("the folds of an unfolded pitchfork pass one cusp, and no Bogdanov-Tak
         if (second) x[1] = s / 2;
         x[x.size() - 1] = along == over_lambda ? 3 * s * s : -2 * s * s * s;
         const Vector p{{3 * s * s, -2 * s * s * s}};
-        const Branch curve = trace(folds(pitchfork(second), along),
-                                   {.u = x, .p = p, .free = 1 - along, .direction = -1}, window(-0.5, 1.5),
-                                   {cusp_monitor(), bogdanov_takens_monitor()});
+        const Branch curve =
+            trace(folds(pitchfork(second), along), {.u = x, .p = p, .free = 1 - along, .direction = -1},
+                  window(-0.5, 1.5), {cusp_monitor(), bogdanov_takens_monitor()});
         CAPTURE(second, along, s, curve.stop.message);
         CHECK(curve.stop.reason == StopReason::boundary);
         CHECK(curve.warnings.empty());
@@ -174,8 +174,8 @@ TEST_CASE("a closed curve of folds with three cusps, a section of the elliptic u
       });
   for (const int along : {0, 1})
     for (const double t : {0.5, 2.9, 4.4}) {
-      const Vector p{{r * r * (3 * std::cos(2 * t) + 6 * std::cos(t)),
-                      r * r * (6 * std::sin(t) - 3 * std::sin(2 * t))}};
+      const Vector p{
+          {r * r * (3 * std::cos(2 * t) + 6 * std::cos(t)), r * r * (6 * std::sin(t) - 3 * std::sin(2 * t))}};
       const Start start{.u = Vector{{r * std::cos(t), r * std::sin(t), p[along]}}, .p = p, .free = 1 - along};
       const Branch curve = trace(folds(umbilic, along), start, window(-5, 5), {cusp_monitor()});
       CAPTURE(along, t, curve.stop.message);
@@ -205,10 +205,10 @@ TEST_CASE("on a curve of folds a wrong derivative of the problem is named as one
     const auto problem = from_functions(
         1, {parameter("mu", 0), parameter("lambda", 1)},
         [](In u, In p, Out F) { F[0] = p[0] + p[1] * u[0] - std::pow(u[0], 3); },
-        [=](In u, In p, Eigen::Ref<Matrix> J) {
-          J(0, 0) = p[1] - (in_parameter ? 3 : 2.9) * u[0] * u[0];
-        },
-        [=](In u, In, int k, Out dF) { dF[0] = k == 1 ? u[0] : in_parameter ? 1.1 : 1; });
+        [=](In u, In p, Eigen::Ref<Matrix> J) { J(0, 0) = p[1] - (in_parameter ? 3 : 2.9) * u[0] * u[0]; },
+        [=](In u, In, int k, Out dF) { dF[0] = k == 1         ? u[0]
+                                               : in_parameter ? 1.1
+                                                              : 1; });
     const Start start{Vector{{-0.6, 0.4}}, Vector{{0.0, 1.0}}, 1, -1};
     const Branch curve = trace(folds(problem, 0), start, window(-1, 2));
     REQUIRE(curve.warnings.size() == 1);

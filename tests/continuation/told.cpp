@@ -18,9 +18,8 @@ bool says(const std::string& message, const char* what) {
 
 TEST_CASE("a kink without `piece` and without a Jacobian: `piece` is asked for, and no Jacobian was given") {
   // u - 3 max(0, u - 1) = p: a nonsmooth fold at p = 1
-  const auto problem = from_functions(1, {{"p", "", -1}}, [](In u, In p, Out F) {
-    F[0] = u[0] - 3 * std::max(0.0, u[0] - 1) - p[0];
-  });
+  const auto problem = from_functions(
+      1, {{"p", "", -1}}, [](In u, In p, Out F) { F[0] = u[0] - 3 * std::max(0.0, u[0] - 1) - p[0]; });
   const Branch branch =
       trace(problem, {.u = Vector{{-1.0}}, .p = Vector{{-1.0}}}, window(-2, 2), {fold_monitor()});
   CAPTURE(branch.stop.message);
@@ -77,9 +76,8 @@ TEST_CASE("a start on a branch point is told to be one, with a tangent or withou
 }
 
 TEST_CASE("sums that are conserved are named, one or two") {
-  const auto exchange = from_functions(2, {{"k", "", 1}}, [](In u, In p, Out F) {
-    F << -p[0] * u[0] + 2 * u[1], p[0] * u[0] - 2 * u[1];
-  });
+  const auto exchange = from_functions(
+      2, {{"k", "", 1}}, [](In u, In p, Out F) { F << -p[0] * u[0] + 2 * u[1], p[0] * u[0] - 2 * u[1]; });
   for (const double b : {1.0, 1.3}) {
     const Branch branch = trace(exchange, {.u = Vector{{2.0, b}}, .p = Vector{{1.0}}}, window(0.5, 2));
     CAPTURE(b, branch.stop.message);
@@ -120,8 +118,7 @@ TEST_CASE("a symmetry is no conserved sum, and a fold no branch point") {
   CAPTURE(branch.stop.message);
   CHECK(says(branch.stop.message, "phase condition"));
   CHECK_FALSE(says(branch.stop.message, "conserved"));
-  const auto parabola =
-      from_functions(1, {{"p", ""}}, [](In u, In p, Out F) { F[0] = p[0] - u[0] * u[0]; });
+  const auto parabola = from_functions(1, {{"p", ""}}, [](In u, In p, Out F) { F[0] = p[0] - u[0] * u[0]; });
   const Branch fold = trace(parabola, {.u = Vector{{0.0}}, .p = Vector{{0.0}}}, window(-1, 1));
   CAPTURE(fold.stop.message);
   CHECK(says(fold.stop.message, "needs a tangent"));

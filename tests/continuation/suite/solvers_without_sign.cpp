@@ -56,8 +56,7 @@ Functions chain(int n, double d, const Cell& cell, Parameter p) {
   f.scales = Vector::Constant(n, std::sqrt(n));
   f.residual = [=](In u, In q, Out F) {
     for (int i = 0; i < n; ++i)
-      F[i] = cell.f(u[i], q[0]) +
-             d * ((i > 0 ? u[i - 1] - u[i] : 0) + (i + 1 < n ? u[i + 1] - u[i] : 0));
+      F[i] = cell.f(u[i], q[0]) + d * ((i > 0 ? u[i - 1] - u[i] : 0) + (i + 1 < n ? u[i + 1] - u[i] : 0));
   };
   f.sparse_jacobian = [=](In u, In q, SparseMatrix& J) {
     std::vector<Eigen::Triplet<double>> entries;
@@ -113,8 +112,12 @@ Job bratu_cells() {
   }
   Options options = window(0.02, 1);
   options.step.largest_parameter = 0.01;
-  return {"cells of Bratu's reaction", from_functions(chain(n, d, cell, parameter("p", 0.02))),
-          on_equal(n, 0.02, 0.02), options, known, 1e-10};
+  return {"cells of Bratu's reaction",
+          from_functions(chain(n, d, cell, parameter("p", 0.02))),
+          on_equal(n, 0.02, 0.02),
+          options,
+          known,
+          1e-10};
 }
 
 // p u - u^3 in a row: u = 0 is crossed where p = d mu_k.
@@ -126,8 +129,12 @@ Job pitchfork_cells() {
   std::vector<Known> known;
   for (int k = 0; d * coupling_eigenvalue(k, n) < 2; ++k)
     known.push_back({"branch_point", d * coupling_eigenvalue(k, n)});
-  return {"coupled pitchforks", from_functions(chain(n, d, cell, parameter("p", -1))), on_equal(n, 0, -1),
-          window(-1, 2), known, 1e-10};
+  return {"coupled pitchforks",
+          from_functions(chain(n, d, cell, parameter("p", -1))),
+          on_equal(n, 0, -1),
+          window(-1, 2),
+          known,
+          1e-10};
 }
 
 // Bratu's problem by Numerov's method, of fourth order: its fold is 3.513830719125 (tests/reference).
@@ -142,8 +149,8 @@ Job bratu() {
   f.residual = [=](In u, In p, Out F) {
     for (int i = 0; i < n; ++i) {
       const double left = i > 0 ? u[i - 1] - u[i] : -u[i], right = i + 1 < n ? u[i + 1] - u[i] : -u[i];
-      F[i] = left + right +
-             c * p[0] * (reaction(u, i - 1, n) + 10 * reaction(u, i, n) + reaction(u, i + 1, n));
+      F[i] =
+          left + right + c * p[0] * (reaction(u, i - 1, n) + 10 * reaction(u, i, n) + reaction(u, i + 1, n));
     }
   };
   f.sparse_jacobian = [=](In u, In p, SparseMatrix& J) {
@@ -161,7 +168,7 @@ Job bratu() {
       dF[i] = c * (reaction(u, i - 1, n) + 10 * reaction(u, i, n) + reaction(u, i + 1, n));
   };
   return {"Bratu's problem", from_functions(std::move(f)), {Vector::Zero(n), Vector{{0.1}}, 0, 1},
-          window(0.1, 5), {{"fold", 3.513830719125}}, 1e-9};
+          window(0.1, 5),    {{"fold", 3.513830719125}},   1e-9};
 }
 
 // u'' + lambda (u - u^3), u(0) = u(1) = 0: u = 0 is crossed at (2/h)^2 sin^2(k pi h/2) (Chafee and Infante
@@ -204,12 +211,14 @@ Job snapping_arch() {
         F[0] = k * (u[1] - u[0]) - u[0] * (u[0] - 1) * (u[0] - 2) / 2;
         F[1] = p[0] - k * (u[1] - u[0]);
       },
-      [=](In u, In, MatrixOut J) {
-        J << -k - (3 * u[0] * u[0] - 6 * u[0] + 2) / 2, k, k, -k;
-      },
+      [=](In u, In, MatrixOut J) { J << -k - (3 * u[0] * u[0] - 6 * u[0] + 2) / 2, k, k, -k; },
       [](In, In, int, Out dF) { dF << 0, 1; });
-  return {"a snapping arch", sparse(dense), {Vector{{-0.3, -0.5}}, Vector{{-0.3}}, 0, 1}, window(-0.3, 0.4),
-          {{"fold", fold}, {"fold", -fold}}, 1e-11};
+  return {"a snapping arch",
+          sparse(dense),
+          {Vector{{-0.3, -0.5}}, Vector{{-0.3}}, 0, 1},
+          window(-0.3, 0.4),
+          {{"fold", fold}, {"fold", -fold}},
+          1e-11};
 }
 
 // The Brusselator in a row of cells: equal ones x = A, y = B/A are left by patterns (Turing) where
@@ -261,8 +270,12 @@ Job brusselator_cells() {
             [](const Known& a, const Known& b) { return a.parameter < b.parameter; });
   Vector start(2 * cells);
   for (int i = 0; i < cells; ++i) start[2 * i] = A, start[2 * i + 1] = 1 / A;
-  return {"a row of Brusselators", from_functions(std::move(f)), {start, Vector{{1.0}}, 0, 1}, window(1, 4),
-          known, 1e-10};
+  return {"a row of Brusselators",
+          from_functions(std::move(f)),
+          {start, Vector{{1.0}}, 0, 1},
+          window(1, 4),
+          known,
+          1e-10};
 }
 
 // A problem of the suite, with the folds that are known of it.
@@ -280,9 +293,16 @@ Job normal_form(const std::string& name) {
 }
 
 std::vector<Job> jobs() {
-  return {cubic_cells(),       bratu(),         normal_form("pitchfork"), normal_form("transcritical"),
-          of_suite("duffing_1harmonic"), bratu_cells(),   chafee_infante(),         snapping_arch(),
-          brusselator_cells(), pitchfork_cells()};
+  return {cubic_cells(),
+          bratu(),
+          normal_form("pitchfork"),
+          normal_form("transcritical"),
+          of_suite("duffing_1harmonic"),
+          bratu_cells(),
+          chafee_infante(),
+          snapping_arch(),
+          brusselator_cells(),
+          pitchfork_cells()};
 }
 
 Branch traced(const Job& job, const MakeLinearSolver& solver) {
@@ -422,8 +442,12 @@ TEST_CASE("a double branch point has its branches without transposed solves, too
         for (int i = 0; i < 3; ++i) J(i, i) = p[0] - 2 * u[i] - 2 * d;
       },
       [](In u, In, int, Out dF) { dF = u; });
-  const Job job{"a ring", sparse(dense), {Vector::Zero(3), Vector{{-0.5}}, 0, 1}, window(-0.5, 1),
-                {{"branch_point", 0}, {"branch_point", 3 * d}}, 1e-11};
+  const Job job{"a ring",
+                sparse(dense),
+                {Vector::Zero(3), Vector{{-0.5}}, 0, 1},
+                window(-0.5, 1),
+                {{"branch_point", 0}, {"branch_point", 3 * d}},
+                1e-11};
   const Branch own = traced(job, {});
   check_known(job, own);
   for (const bool transposed : {true, false}) {
@@ -436,8 +460,8 @@ TEST_CASE("a double branch point has its branches without transposed solves, too
 }
 
 TEST_CASE("the diagram of two coupled pitchforks is complete with a user's sparse LU") {
-  // p u_i - u_i^3 + d (u_j - u_i): equal cells are born at 0 and opposite ones at 2 d, where p - 2 d = u^2; on
-  // these, unequal ones at p - 2 d = u^2 = d, and nowhere else.
+  // p u_i - u_i^3 + d (u_j - u_i): equal cells are born at 0 and opposite ones at 2 d, where p - 2 d = u^2;
+  // on these, unequal ones at p - 2 d = u^2 = d, and nowhere else.
   const double d = 0.2;
   const Cell cell{[](double u, double p) { return p * u - u * u * u; },
                   [](double u, double p) { return p - 3 * u * u; }, [](double u, double) { return u; }};
@@ -494,9 +518,8 @@ TEST_CASE("a trace without the sign of the determinant is resumed bit for bit") 
   while (plain.step()) {
   }
   while (resumed->step())
-    resumed = std::make_unique<Tracer>(job.problem,
-                                       state_from_json(to_json(resumed->save())),
-                                       options, monitors);
+    resumed =
+        std::make_unique<Tracer>(job.problem, state_from_json(to_json(resumed->save())), options, monitors);
   CHECK(plain.branch().points.size() > 20);
   CHECK(to_json(resumed->save()) == to_json(plain.save()));
 }
