@@ -101,9 +101,9 @@ constexpr int finer = 3, coarser = 3;  // steps than the first one
 constexpr double same = 0.2;           // of e, from step to step
 constexpr double one_sided = 0.25;     // of e: the most by which the differences to the two sides may differ
 constexpr double roundings = 1e2;      // of F, which a change along d has to exceed
-constexpr double next_share = 1e-4, least_share = 1e-13;  // of the scale of p
-constexpr double least_change = 0.1;                      // of the given one
-constexpr double looks_reach = 512;                       // of the steps on both sides of one: ratio^finer
+constexpr double next_share = 1e-4, last_share = 1e-13;  // of the scale of p
+constexpr double least_change = 0.1;                     // of the given one
+constexpr double looks_reach = 512;                      // of the steps on both sides of one: ratio^finer
 
 // +-(1/2 .. 1), without a pattern.
 double without_pattern(Eigen::Index j) {
@@ -163,7 +163,7 @@ class Doubt {
     Verdict wrong;
     Vector along = Vector::Zero(n_ + 1);
     agreed_.setConstant(n_, false);
-    for (double share = 1; share > least_share && share * size * looks_reach > p; share *= next_share) {
+    for (double share = 1; share > last_share && share * size * looks_reach > p; share *= next_share) {
       Vector d = Vector::Zero(n_ + 1);
       d[n_] = share * size;
       const Verdict found = judge(d, share < 1);
