@@ -2,7 +2,7 @@
 
 #include "option_values.hpp"
 
-#include <arcslip/scene/write_values.hpp>
+#include <arcslip/scene/keys/write_values.hpp>
 
 #include <algorithm>
 

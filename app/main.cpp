@@ -7,10 +7,10 @@
 #include "standard_output.hpp"
 #include "verbs.hpp"
 
+#include <arcslip/control/stop_request.hpp>
 #include <arcslip/optimize/studies.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/scene.hpp>
-#include <arcslip/scene/stop_request.hpp>
 #include <arcslip/studies/catalogue.hpp>
 
 #include <cstdlib>

@@ -6,7 +6,7 @@
 #include <arcslip/results/text.hpp>
 #include <arcslip/results/version.hpp>
 #include <arcslip/scene/combinations.hpp>
-#include <arcslip/scene/json_schema.hpp>
+#include <arcslip/scene/format/json_schema.hpp>
 
 #include <CLI/CLI.hpp>
 

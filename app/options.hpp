@@ -3,6 +3,7 @@
 
 #include "exit_code.hpp"
 
+#include <arcslip/scene/keys/json_tree.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/study_type.hpp>
 

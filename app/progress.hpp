@@ -1,6 +1,6 @@
 #pragma once
 
-#include <arcslip/results/progress.hpp>
+#include <arcslip/control/progress.hpp>
 
 #include <chrono>
 #include <cstddef>

@@ -3,9 +3,9 @@
 #include "interrupt.hpp"
 
 #include <arcslip/results/text.hpp>
-#include <arcslip/scene/scene_file.hpp>
-#include <arcslip/scene/write_values.hpp>
-#include <arcslip/studies/units.hpp>
+#include <arcslip/scene/format/scene_file.hpp>
+#include <arcslip/scene/keys/write_values.hpp>
+#include <arcslip/studies/presentation/units.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <arcslip/scene/manifest.hpp>
+#include <arcslip/scene/files/manifest.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <span>
@@ -13,9 +13,9 @@ namespace arcslip::app {
 /// Returns the files that a scene reads: its own, and those that it names.
 std::vector<std::string> sources_of(const scene::Scene& scene, const std::string& scene_file);
 
-/// A folder of results with its manifest (scene/manifest.hpp), locked for one run at a time: created with its
-/// parents and locked for the lifetime of this object; the lock does not outlive a killed program. Removes
-/// temporary files left by killed runs.
+/// A folder of results with its manifest (scene/files/manifest.hpp), locked for one run at a time: created
+/// with its parents and locked for the lifetime of this object; the lock does not outlive a killed program.
+/// Removes temporary files left by killed runs.
 class ResultsFolder {
  public:
   /// sources: files that are neither replaced nor removed. Throws UsageError if the folder cannot be created,

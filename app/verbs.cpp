@@ -9,18 +9,18 @@
 #include "sinks.hpp"
 #include "standard_output.hpp"
 
+#include <arcslip/analyses/branches/resonances.hpp>
+#include <arcslip/control/progress.hpp>
 #include <arcslip/model/reduced_scene.hpp>
-#include <arcslip/observables/prepare.hpp>
-#include <arcslip/observables/resonances.hpp>
+#include <arcslip/model/reduction_report.hpp>
 #include <arcslip/output/atomic_file.hpp>
-#include <arcslip/results/progress.hpp>
 #include <arcslip/results/table_writer.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/results/version.hpp>
 #include <arcslip/scene/combinations.hpp>
-#include <arcslip/scene/highest_harmonic.hpp>
-#include <arcslip/scene/manifest.hpp>
-#include <arcslip/studies/columns.hpp>
+#include <arcslip/scene/files/manifest.hpp>
+#include <arcslip/studies/highest_harmonic.hpp>
+#include <arcslip/studies/presentation/columns.hpp>
 
 #include <algorithm>
 #include <filesystem>

@@ -14,11 +14,11 @@
 #include "measure.hpp"
 #include "scenes.hpp"
 
-#include <arcslip/observables/frequency_response.hpp>
-#include <arcslip/observables/integrator.hpp>
-#include <arcslip/observables/time_study.hpp>
+#include <arcslip/analyses/modes_and_time/time_study.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/results/json_writer.hpp>
-#include <arcslip/time/shooting.hpp>
+#include <arcslip/time/periodic/period_integrator.hpp>
+#include <arcslip/time/periodic/shooting.hpp>
 
 #include <nlohmann/json.hpp>
 

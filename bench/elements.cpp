@@ -12,12 +12,12 @@
 #include "measure.hpp"
 #include "sampled.hpp"
 
-#include <arcslip/elements/contact_2d.hpp>
-#include <arcslip/elements/contact_3d.hpp>
-#include <arcslip/elements/gap_spring.hpp>
-#include <arcslip/elements/iwan.hpp>
-#include <arcslip/elements/jenkins.hpp>
-#include <arcslip/elements/masing_element.hpp>
+#include <arcslip/laws/contact/contact_2d.hpp>
+#include <arcslip/laws/contact/contact_3d.hpp>
+#include <arcslip/laws/hysteresis/iwan.hpp>
+#include <arcslip/laws/hysteresis/jenkins.hpp>
+#include <arcslip/laws/hysteresis/masing_element.hpp>
+#include <arcslip/laws/memoryless/gap_spring.hpp>
 #include <arcslip/scene/part_type.hpp>
 
 #include <cmath>

@@ -8,10 +8,10 @@
 #include "sampled.hpp"
 #include "scenes.hpp"
 
-#include <arcslip/elements/largest_value.hpp>
+#include <arcslip/fourier/series_maximum.hpp>
 #include <arcslip/hbm/problem.hpp>
-#include <arcslip/time/from_harmonics.hpp>
-#include <arcslip/time/shooting.hpp>
+#include <arcslip/stability/state_from_harmonics.hpp>
+#include <arcslip/time/periodic/shooting.hpp>
 
 #include <Eigen/LU>
 

@@ -16,8 +16,8 @@
 #include "measure.hpp"
 #include "scenes.hpp"
 
-#include <arcslip/observables/frequency_branch.hpp>
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/analyses/branches/frequency_branch.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
 
 #include <Eigen/LU>
 

@@ -14,7 +14,7 @@
 #include "measure.hpp"
 #include "scenes.hpp"
 
-#include <arcslip/observables/frequency_branch.hpp>
+#include <arcslip/analyses/branches/frequency_branch.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 

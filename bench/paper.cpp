@@ -8,8 +8,8 @@
 #include "measure.hpp"
 #include "scenes.hpp"
 
-#include <arcslip/observables/curves.hpp>
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/analyses/curves/curves.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
 
 #include <cmath>
 #include <vector>

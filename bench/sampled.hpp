@@ -1,7 +1,7 @@
 #pragma once
 // The force of a law sampled in time, and its Jacobian: what the exact integrals replace.
 
-#include <arcslip/elements/law.hpp>
+#include <arcslip/laws/law.hpp>
 
 #include <numbers>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "scenes.hpp"
 
-#include <arcslip/elements/jenkins.hpp>
+#include <arcslip/laws/hysteresis/jenkins.hpp>
 
 #include <fstream>
 #include <numbers>

@@ -22,8 +22,8 @@ function(arcslip_precompiled_headers target)
 endfunction()
 
 # The sources of a target in batches: one batch is one translation unit, which compiles what its files include, and the
-# templates that they instantiate, once. The files of a batch are of one room, so that names at file level have to be unique
-# in a room of lib, in continuation and in optimize, and not beyond. Where ARCSLIP_UNITY is off, each file is compiled alone.
+# templates that they instantiate, once. The files of a batch are of one folder of lib, so that names at file level have to
+# be unique in it, with the rooms below it, in continuation and in optimize, and not beyond. Where ARCSLIP_UNITY is off, each file is compiled alone.
 set(ARCSLIP_HEAVY_BATCH 40000 CACHE STRING "Bytes of source of a batch, about, of what is optimised for speed")
 set(ARCSLIP_LIGHT_BATCH 200000 CACHE STRING "The same, of what is not")
 mark_as_advanced(ARCSLIP_HEAVY_BATCH ARCSLIP_LIGHT_BATCH)

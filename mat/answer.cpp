@@ -1,6 +1,6 @@
 #include "answer.hpp"
 
-#include <arcslip/scene/mat_protocol.hpp>
+#include <arcslip/scene/files/mat_protocol.hpp>
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 #pragma once
-// What is written on standard output: lib/scene/mat_protocol.hpp.
+// What is written on standard output: lib/scene/files/mat_protocol.hpp.
 
 #include <cstdint>
 #include <span>

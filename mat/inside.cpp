@@ -1,7 +1,7 @@
 #include "inside.hpp"
 #include "answer.hpp"
 
-#include <arcslip/scene/mat_protocol.hpp>
+#include <arcslip/scene/files/mat_protocol.hpp>
 
 #include <hdf5.h>
 

@@ -1,6 +1,6 @@
 #include "limits.hpp"
 
-#include <arcslip/scene/mat_protocol.hpp>
+#include <arcslip/scene/files/mat_protocol.hpp>
 
 #include <algorithm>
 #include <csignal>

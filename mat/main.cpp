@@ -1,6 +1,6 @@
 // arcslip-mat FILE [VARIABLE] reads a matrix from a MATLAB file and writes it on standard output, for
-// arcslip: lib/scene/mat_protocol.hpp. matio and HDF5 are not made for files that somebody else may have
-// written: what is damaged, or made to do damage, ends this program and no other.
+// arcslip: lib/scene/files/mat_protocol.hpp. matio and HDF5 are not made for files that somebody else may
+// have written: what is damaged, or made to do damage, ends this program and no other.
 
 #include "answer.hpp"
 #include "limits.hpp"

@@ -2,7 +2,7 @@
 #include "answer.hpp"
 #include "inside.hpp"
 
-#include <arcslip/scene/mat_protocol.hpp>
+#include <arcslip/scene/files/mat_protocol.hpp>
 
 #include <matio.h>
 

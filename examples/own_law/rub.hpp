@@ -4,7 +4,7 @@
 //
 //   f = K (q + mu J q),   K = k (1 - c/r) where r > c,   J q = (-q_2, q_1)
 
-#include <arcslip/elements/sampled_law.hpp>
+#include <arcslip/laws/sampled_law.hpp>
 
 #include <limits>
 

@@ -16,7 +16,7 @@ struct LinearMode {
   Kind kind = Kind::oscillation;
   double omega = 0;          // rad/s
   double damping_ratio = 0;  // of its own motion: v^T C v/(2 omega v^T M v)
-  Vector shape;              // v, in the coordinates y (coordinates.hpp)
+  Vector shape;              // v, in the coordinates y (hbm/linear/coordinates.hpp)
   double mass = 0;           // v^T M v
 };
 

@@ -16,7 +16,7 @@
 // A, A in m. In these all are of order 1 over any number of decades of A, and v, omega and zeta change
 // smoothly where the response is small beside the motion, or another of its reversals becomes the extreme.
 
-#include <arcslip/elements/reversals.hpp>
+#include <arcslip/fourier/reversals.hpp>
 #include <arcslip/hbm/problem.hpp>
 
 #include <memory>

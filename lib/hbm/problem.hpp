@@ -3,14 +3,14 @@
 //
 //   R(u, p) = Z(omega) u + sum_e E_e^T F_e(E_e u) - factor f = 0
 //
-// u: the coefficients of the nonlinear coordinates (coordinates.hpp), each in the layout of
-// elements/harmonics.hpp, followed by the auxiliary unknowns of laws, whose equations are rows of F_e. p: the
+// u: the coefficients of the nonlinear coordinates (hbm/linear/coordinates.hpp), each in the layout of
+// fourier/harmonics.hpp, followed by the auxiliary unknowns of laws, whose equations are rows of F_e. p: the
 // model's parameters ("frequency" first, rad/s), and last "excitation_factor", which scales all forces, from
 // rest (u = 0 at 0) to the scene (1).
 
-#include <arcslip/hbm/dynamic_stiffness.hpp>
-#include <arcslip/hbm/element_map.hpp>
-#include <arcslip/hbm/workers.hpp>
+#include <arcslip/control/workers.hpp>
+#include <arcslip/hbm/element_gather.hpp>
+#include <arcslip/hbm/linear/dynamic_stiffness.hpp>
 
 #include <functional>
 #include <memory>

@@ -1,6 +1,6 @@
 // Copies of one structure.
 
-#include <arcslip/model/placer.hpp>
+#include <arcslip/model/matrix_placement.hpp>
 
 #include <map>
 

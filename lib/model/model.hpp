@@ -4,9 +4,9 @@
 // model; the model keeps the defaults.
 
 #include <arcslip/continuation/problem/problem.hpp>
-#include <arcslip/elements/law.hpp>
+#include <arcslip/control/stop_request.hpp>
+#include <arcslip/laws/law.hpp>
 #include <arcslip/scene/scene.hpp>
-#include <arcslip/scene/stop_request.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>

@@ -1,6 +1,6 @@
 #include <arcslip/model/placed_matrices.hpp>
 
-#include <arcslip/model/placer.hpp>
+#include <arcslip/model/matrix_placement.hpp>
 
 namespace arcslip::model {
 

@@ -3,7 +3,7 @@
 #include <arcslip/model/model.hpp>
 #include <arcslip/model/placed_matrices.hpp>
 #include <arcslip/results/text.hpp>
-#include <arcslip/scene/csv_text.hpp>
+#include <arcslip/scene/files/csv_text.hpp>
 #include <arcslip/scene/shape.hpp>
 
 #include <algorithm>

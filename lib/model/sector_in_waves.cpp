@@ -1,6 +1,6 @@
 // One sector in the waves of its ring.
 
-#include <arcslip/model/placer.hpp>
+#include <arcslip/model/matrix_placement.hpp>
 
 #include <algorithm>
 #include <complex>

@@ -7,7 +7,7 @@
 // motion with a shorter period than the force, the first is taken.
 
 #include <arcslip/continuation/problem/problem.hpp>
-#include <arcslip/elements/reversals.hpp>
+#include <arcslip/fourier/reversals.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // Forces of the fundamental, in phase with the displacement and a quarter period ahead of it.
 //
 // Fundamental: the lowest harmonic excited, n >= 1, with complex amplitudes X = a - i b (elements/
-// harmonics.hpp). For an element with displacement Q and force F:
+// fourier/harmonics.hpp). For an element with displacement Q and force F:
 //
 //   (in_phase + i out_of_phase) = F conj(Q)/|Q|,   k_eq = in_phase/|Q|,   c_eq = out_of_phase/(n omega |Q|)
 //
@@ -18,9 +18,9 @@
 // et al. (2011, Eqs. 18 to 24) for the fundamental, for which their Eqs. 26 and 27 hold. For their own
 // definition by maxima over the period see MotionMaxima.
 
-#include <arcslip/elements/largest_value.hpp>
+#include <arcslip/fourier/series_maximum.hpp>
 #include <arcslip/hbm/problem.hpp>
-#include <arcslip/observables/response.hpp>
+#include <arcslip/results/response.hpp>
 
 #include <utility>
 

@@ -1,7 +1,7 @@
 #pragma once
 // The motion and the forces over one period at a point of a branch.
 
-#include <arcslip/observables/response.hpp>
+#include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <span>

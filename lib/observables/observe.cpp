@@ -1,8 +1,8 @@
 #include <arcslip/observables/observe.hpp>
 
 #include <arcslip/observables/energies.hpp>
-#include <arcslip/observables/event_kinds.hpp>
-#include <arcslip/observables/patches.hpp>
+#include <arcslip/observables/patch_totals.hpp>
+#include <arcslip/results/event_kinds.hpp>
 
 #include <cmath>
 #include <complex>
@@ -265,6 +265,19 @@ continuation::Monitor peak_monitor(std::shared_ptr<Observer> observer) {
   if (monitor.divides_at_kinks)
     monitor.part = [observer](const continuation::Accepted&) { return observer->last_part(); };
   return monitor;
+}
+
+std::vector<continuation::Monitor> stability_monitors(const std::shared_ptr<Observer>& observer) {
+  const auto multipliers = [&](auto of) -> MultipliersAt {
+    return [=](const continuation::Accepted& now) {
+      const StabilityAnalysis* found = observer->stability(now);
+      return found ? &(found->*of)() : nullptr;
+    };
+  };
+  if (!observer->problem().harmonics().odd)
+    return stability_monitors(multipliers(&StabilityAnalysis::multipliers));
+  return stability_monitors(multipliers(&StabilityAnalysis::multipliers),
+                            multipliers(&StabilityAnalysis::half_multipliers));
 }
 
 }  // namespace arcslip::observables

@@ -5,17 +5,18 @@
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/amplitude.hpp>
 #include <arcslip/observables/force_components.hpp>
-#include <arcslip/observables/response.hpp>
-#include <arcslip/observables/stability.hpp>
-#include <arcslip/observables/stability_request.hpp>
-#include <arcslip/observables/stops.hpp>
+#include <arcslip/observables/sticking_at_reversal.hpp>
 #include <arcslip/observables/truncation.hpp>
+#include <arcslip/results/response.hpp>
+#include <arcslip/stability/stability.hpp>
+#include <arcslip/stability/stability_request.hpp>
 
 #include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace arcslip::observables {
 
@@ -89,5 +90,8 @@ class Observer {
 
 /// Peaks: dA/ds falls through zero. Unlike dA/domega it has no pole at folds.
 continuation::Monitor peak_monitor(std::shared_ptr<Observer> observer);
+
+/// Losses of stability of the branches that it watches (Observer::watch_stability()).
+std::vector<continuation::Monitor> stability_monitors(const std::shared_ptr<Observer>& observer);
 
 }  // namespace arcslip::observables

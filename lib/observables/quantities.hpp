@@ -2,7 +2,7 @@
 // The quantities of a response, each defined once by its path, unit, meaning and getter. The keys of JSON,
 // the columns of tables and figures, the limits of the optimizer and docs/results.md are derived from here.
 
-#include <arcslip/observables/response.hpp>
+#include <arcslip/results/response.hpp>
 #include <arcslip/results/value.hpp>
 #include <arcslip/scene/scene.hpp>
 

@@ -1,6 +1,6 @@
 #include <arcslip/observables/stored_energy.hpp>
 
-#include <arcslip/elements/reversals.hpp>
+#include <arcslip/fourier/reversals.hpp>
 #include <arcslip/observables/amplitude.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // The elastic energy of a nonlinear element in its periodic motion.
 
-#include <arcslip/elements/law.hpp>
+#include <arcslip/laws/law.hpp>
 
 namespace arcslip::observables {
 

@@ -3,8 +3,8 @@
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 #include <arcslip/continuation/problem/difference.hpp>
-#include <arcslip/hbm/corner.hpp>
-#include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/hbm/grazing_problem.hpp>
+#include <arcslip/results/event_kinds.hpp>
 
 #include <algorithm>
 #include <array>

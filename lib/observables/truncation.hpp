@@ -4,13 +4,13 @@
 // At a solution (u, q) of order N, on a branch over q (the frequency, or another parameter), the equations of
 // 2 N + 9 harmonics (of a motion over several periods of the excitation, 9 of each) have the residual r, in
 // the harmonics neglected and, where the scene samples its friction, in those kept. Their linearization
-// (wide_equations.hpp) with the branch's border row gives the change d to the branch of more harmonics, which
-// is regular at folds, up to a step c along the tangent t. The condition of the point determines c:
+// (extended_harmonics.hpp) with the branch's border row gives the change d to the branch of more harmonics,
+// which is regular at folds, up to a step c along the tangent t. The condition of the point determines c:
 //
 //   a value of q       d_q + c t_q + c^2 q''/2 = 0, the root that is next to 0
 //   an extremum        none: dA/ds = 0
 //   a fold             it moves along the branch to where dq/ds is zero again, c = -d_q' / q''
-//   a corner           h = 0 (hbm/corner.hpp) holds for d + c t
+//   a corner           h = 0 (hbm/grazing_problem.hpp) holds for d + c t
 //   a branch point     not known: the linearization is singular there
 //
 // The place of an event in q moves by d_q + c t_q; that of an extremum, which is where dA/ds is zero again,
@@ -22,7 +22,7 @@
 // omega, a second correction with the same factors, d_2, adds |dA_2|, as it does where laws have unknowns of
 // their own, whose equations the sweeps solve less well: there |dx|/5 counts in place of |dx|/20. Where one
 // is above (2 N + 9) omega, the estimate is at least what its mode answers at resonance, with forces that
-// fall as n^-2 (high_modes.hpp).
+// fall as n^-2 (unresolved_resonances.hpp).
 //
 // It is flagged if it may be far too low: that resonance has no bound, or may add a tenth of the amplitude;
 // the sweeps do not converge; the change of the response is not small; samples do not resolve a force of the
@@ -32,9 +32,9 @@
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/observables/amplitude.hpp>
-#include <arcslip/observables/high_modes.hpp>
-#include <arcslip/observables/response.hpp>
-#include <arcslip/observables/wide_equations.hpp>
+#include <arcslip/observables/extended_harmonics.hpp>
+#include <arcslip/observables/unresolved_resonances.hpp>
+#include <arcslip/results/response.hpp>
 
 #include <optional>
 #include <vector>

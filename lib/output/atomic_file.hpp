@@ -1,7 +1,7 @@
 #pragma once
 // Files that appear under their name only when complete.
 
-#include <arcslip/scene/stop_request.hpp>
+#include <arcslip/control/stop_request.hpp>
 
 #include <functional>
 #include <memory>

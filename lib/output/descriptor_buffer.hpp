@@ -1,7 +1,7 @@
 #pragma once
 // Writing to a file descriptor that may block on a reader.
 
-#include <arcslip/scene/stop_request.hpp>
+#include <arcslip/control/stop_request.hpp>
 
 #include <array>
 #include <chrono>

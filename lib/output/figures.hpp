@@ -1,8 +1,8 @@
 #pragma once
 // Figures, drawn by gnuplot.
 
+#include <arcslip/control/stop_request.hpp>
 #include <arcslip/results/figure.hpp>
-#include <arcslip/scene/stop_request.hpp>
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include <arcslip/output/process.hpp>
 
-#include <arcslip/scene/child_output.hpp>
+#include <arcslip/control/child_output.hpp>
 
 #include <cerrno>
 #include <system_error>

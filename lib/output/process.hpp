@@ -1,6 +1,6 @@
 #pragma once
 
-#include <arcslip/scene/stop_request.hpp>
+#include <arcslip/control/stop_request.hpp>
 
 #include <chrono>
 #include <string>

@@ -25,8 +25,8 @@
 
 namespace arcslip::scene {
 
-/// A file, or none, and the matrix in it: in Matrix Market format (matrix_market.hpp), or of MATLAB
-/// (mat_file.hpp), where `variable` names it if the file holds several.
+/// A file, or none, and the matrix in it: in Matrix Market format (scene/files/matrix_market.hpp), or of
+/// MATLAB (scene/files/mat_file.hpp), where `variable` names it if the file holds several.
 struct MatrixFile {
   NamedFile file{};
   std::shared_ptr<const SparseMatrix> matrix{};

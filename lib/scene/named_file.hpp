@@ -1,8 +1,8 @@
 #pragma once
 // Files named by a scene: tables, matrices. They are read with the scene, and its hash covers their content.
 
+#include <arcslip/control/stop_request.hpp>
 #include <arcslip/scene/sparse_matrix.hpp>
-#include <arcslip/scene/stop_request.hpp>
 
 #include <memory>
 #include <string>

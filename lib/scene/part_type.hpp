@@ -2,7 +2,6 @@
 // Types of the parts of a scene: masses, springs, dampers, forces, and laws of force.
 
 #include <arcslip/scene/field.hpp>
-#include <arcslip/scene/json_tree.hpp>
 #include <arcslip/scene/key.hpp>
 #include <arcslip/scene/named_file.hpp>
 #include <arcslip/scene/settings.hpp>
@@ -17,8 +16,9 @@ namespace arcslip::scene {
 struct Scene;
 
 namespace file {
+struct Member;  // keys/json_tree.hpp
 struct Reading;
-}
+}  // namespace file
 
 /// The type of a part of a section. Those of "elements" are laws of force, listed in a Catalogue.
 class PartType {
@@ -43,12 +43,12 @@ class PartType {
   }
 
   /// Fixed options of the part, which are not parameters: choices, tables in files. They may decide which
-  /// fields it has. file::KeyedPart (study_keys.hpp) implements these four functions.
+  /// fields it has. file::KeyedPart (scene/keys/study_keys.hpp) implements these four functions.
   virtual std::vector<Key> options() const { return {}; }
   virtual Settings read_options(const file::Reading&) const { return {}; }
   /// Files named by these options.
   virtual std::vector<NamedFile*> files(Settings&) const { return {}; }
-  virtual void write_options(const Settings&, const Scene&, file::Node::Object&) const {}
+  virtual void write_options(const Settings&, const Scene&, std::vector<file::Member>&) const {}
   /// Whether they decide which fields it has; for the JSON Schema.
   virtual bool options_bring_fields() const { return !options().empty(); }
 

@@ -1,11 +1,11 @@
 #pragma once
 // A scene, validated and resolved, as plain data in the user's units.
 
+#include <arcslip/control/stop_request.hpp>
 #include <arcslip/scene/field.hpp>
 #include <arcslip/scene/matrices.hpp>
 #include <arcslip/scene/named_file.hpp>
 #include <arcslip/scene/settings.hpp>
-#include <arcslip/scene/stop_request.hpp>
 
 #include <cstddef>
 #include <iosfwd>
@@ -199,7 +199,7 @@ inline constexpr std::size_t largest_count =
 /// studies::catalogue(). folder: base of its relative paths. Throws SceneError with every fault found.
 Scene read(std::istream& in, const Catalogue& catalogue, const std::string& folder = {});
 /// The same from a file, with its folder. Throws FileError if the file cannot be read, and SceneError for a
-/// file whose writing was interrupted, according to the manifest next to it (manifest.hpp).
+/// file whose writing was interrupted, according to the manifest next to it (scene/files/manifest.hpp).
 Scene read_file(const std::string& path, const Catalogue& catalogue);
 
 /// The resolved scene with every default, in the same format: read(write(s)) gives s again.

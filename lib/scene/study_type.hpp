@@ -2,8 +2,8 @@
 // A kind of study: its keys in a scene file and its computation. Kinds and laws of force are listed in a
 // Catalogue, which is passed to the reader of a scene; reader, writer and command depend on no specific kind.
 
+#include <arcslip/control/progress.hpp>
 #include <arcslip/results/figure.hpp>
-#include <arcslip/results/progress.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -45,7 +45,7 @@ class StudyType {
   virtual Settings read(const file::Reading& from) const = 0;
   /// Files named by the settings.
   virtual std::vector<NamedFile*> files(Settings&) const { return {}; }
-  virtual void write(const Settings& settings, const Scene& scene, file::Node::Object& to) const = 0;
+  virtual void write(const Settings& settings, const Scene& scene, std::vector<file::Member>& to) const = 0;
 
   virtual std::vector<Taken> taken(const Settings& settings) const = 0;
   /// Removes a parameter from lists of values; the continuation parameter cannot be removed.

@@ -1,10 +1,10 @@
 #include <arcslip/structure/reduction.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/scene/interruptible.hpp>
+#include <arcslip/control/interruptible.hpp>
 #include <arcslip/structure/blocks.hpp>
+#include <arcslip/structure/digit_loss.hpp>
 #include <arcslip/structure/projected.hpp>
-#include <arcslip/structure/rounding.hpp>
 #include <arcslip/structure/symmetry.hpp>
 
 #include <Eigen/CholmodSupport>

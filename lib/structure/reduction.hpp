@@ -32,8 +32,8 @@
 // with fixed-interface modes in place of V; moments: E. J. Grimme, Krylov projection methods for model
 // reduction, PhD thesis, Univ. of Illinois (1997).
 
+#include <arcslip/control/stop_request.hpp>
 #include <arcslip/scene/matrices.hpp>
-#include <arcslip/scene/stop_request.hpp>
 
 #include <Eigen/Core>
 

@@ -12,7 +12,7 @@
 //
 // D. L. Thomas, Dynamics of rotationally periodic structures, Int. J. Numer. Meth. Eng. 14 (1979) 81.
 
-#include <arcslip/scene/stop_request.hpp>
+#include <arcslip/control/stop_request.hpp>
 #include <arcslip/structure/faces.hpp>
 #include <arcslip/structure/reduction.hpp>
 

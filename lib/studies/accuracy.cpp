@@ -1,9 +1,9 @@
 // The study "accuracy": time and error of the ways to compute a frequency response.
-#include <arcslip/observables/accuracy.hpp>
+#include <arcslip/analyses/modes_and_time/accuracy.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/catalogue.hpp>
-#include <arcslip/studies/figures.hpp>
+#include <arcslip/studies/presentation/figures.hpp>
 #include <arcslip/studies/study_of.hpp>
 
 #include <algorithm>

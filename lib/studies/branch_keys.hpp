@@ -1,8 +1,8 @@
 #pragma once
 // The keys of studies that look at all branches of a frequency response.
 
-#include <arcslip/observables/frequency_response.hpp>
-#include <arcslip/scene/study_keys.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/scene/keys/study_keys.hpp>
 
 #include <array>
 #include <string>

@@ -2,8 +2,8 @@
 // The kinds of studies that trace branches of responses; they differ in their keys and in the curves
 // they trace.
 
-#include <arcslip/studies/branches.hpp>
-#include <arcslip/studies/figures.hpp>
+#include <arcslip/studies/presentation/branches.hpp>
+#include <arcslip/studies/presentation/figures.hpp>
 #include <arcslip/studies/study_of.hpp>
 
 #include <optional>

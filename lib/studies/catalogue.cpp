@@ -1,11 +1,37 @@
 #include <arcslip/studies/catalogue.hpp>
 
-#include <arcslip/elements/law.hpp>
-#include <arcslip/studies/columns.hpp>
+#include <arcslip/laws/contact/contact_2d.hpp>
+#include <arcslip/laws/contact/contact_3d.hpp>
+#include <arcslip/laws/hysteresis/bouc_wen.hpp>
+#include <arcslip/laws/hysteresis/iwan.hpp>
+#include <arcslip/laws/hysteresis/jenkins.hpp>
+#include <arcslip/laws/memoryless/bilinear_spring.hpp>
+#include <arcslip/laws/memoryless/coulomb.hpp>
+#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/gap_spring.hpp>
+#include <arcslip/laws/memoryless/piecewise_linear_spring.hpp>
+#include <arcslip/laws/memoryless/polynomial_coupling.hpp>
+#include <arcslip/laws/memoryless/polynomial_spring.hpp>
+#include <arcslip/laws/memoryless/quadratic_damper.hpp>
+#include <arcslip/laws/memoryless/tanh_friction.hpp>
+#include <arcslip/laws/memoryless/van_der_pol.hpp>
+#include <arcslip/studies/presentation/columns.hpp>
 
 #include <algorithm>
 #include <utility>
 #include <vector>
+
+namespace arcslip::elements {
+
+std::vector<const scene::PartType*> laws() {
+  return {&jenkins(),      &contact_2d(),        &contact_3d(),
+          &iwan(),         &bouc_wen(),          &tanh_friction(),
+          &coulomb(),      &quadratic_damper(),  &van_der_pol(),
+          &cubic_spring(), &polynomial_spring(), &polynomial_coupling(),
+          &gap_spring(),   &bilinear_spring(),   &piecewise_linear_spring()};
+}
+
+}  // namespace arcslip::elements
 
 namespace arcslip::studies {
 

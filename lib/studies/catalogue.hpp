@@ -8,6 +8,15 @@
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/study_type.hpp>
 
+#include <vector>
+
+namespace arcslip::elements {
+
+/// All laws of Arcslip, for the catalogue of a reader.
+std::vector<const scene::PartType*> laws();
+
+}  // namespace arcslip::elements
+
 namespace arcslip::studies {
 
 const scene::StudyType& frf();           // frequency responses; settings: observables::FrequencyRange

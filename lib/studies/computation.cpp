@@ -1,7 +1,7 @@
 #include <arcslip/studies/computation.hpp>
 
-#include <arcslip/scene/highest_harmonic.hpp>
-#include <arcslip/studies/in_order.hpp>
+#include <arcslip/control/ordered_parallel_for.hpp>
+#include <arcslip/studies/highest_harmonic.hpp>
 
 #include <atomic>
 #include <map>

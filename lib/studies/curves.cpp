@@ -1,7 +1,7 @@
 // Curves of resonance peaks, of folds and of other bifurcations, which differ only in the points they
 // continue.
-#include <arcslip/observables/curves.hpp>
-#include <arcslip/observables/event_kinds.hpp>
+#include <arcslip/analyses/curves/curves.hpp>
+#include <arcslip/results/event_kinds.hpp>
 #include <arcslip/studies/branch_keys.hpp>
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>

@@ -1,4 +1,4 @@
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/studies/branch_keys.hpp>
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>

@@ -1,8 +1,8 @@
 #pragma once
 // The key "method" of studies whose branches may be exact motions in time.
 
-#include <arcslip/observables/frequency_response.hpp>
-#include <arcslip/scene/study_keys.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/scene/keys/study_keys.hpp>
 
 #include <array>
 

@@ -1,5 +1,5 @@
 // The study "modes": nonlinear modes over the amplitude.
-#include <arcslip/observables/nonlinear_modes.hpp>
+#include <arcslip/analyses/modes_and_time/nonlinear_modes.hpp>
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
 

@@ -1,6 +1,6 @@
 #include <arcslip/studies/order_selection.hpp>
 
-#include <arcslip/observables/reasons.hpp>
+#include <arcslip/results/reasons.hpp>
 #include <arcslip/results/text.hpp>
 
 #include <algorithm>

@@ -5,11 +5,11 @@
 //
 //   max |dA| <= e max A     over the points and events of all its branches
 //
-// with the estimates dA of the truncation error (truncation.hpp). Where one of them is flagged as perhaps far
-// too low, or there is none, as of modes, the order M before counts as well: with the largest relative change
-// c of landmarks, which are the ends of branches, the events without an estimate, and of modes fifteen
-// amplitudes in between (with damping ratios relative to the largest), the error is taken as c/((N/M)^2 - 1),
-// as if it fell as N^-2, or as c where that is less.
+// with the estimates dA of the truncation error (observables/truncation.hpp). Where one of them is flagged as
+// perhaps far too low, or there is none, as of modes, the order M before counts as well: with the largest
+// relative change c of landmarks, which are the ends of branches, the events without an estimate, and of
+// modes fifteen amplitudes in between (with damping ratios relative to the largest), the error is taken as
+// c/((N/M)^2 - 1), as if it fell as N^-2, or as c where that is less.
 //
 // Where responses were searched for, two orders have to find as many: too few harmonics may have none of
 // another one.
@@ -18,7 +18,7 @@
 // which is that of friction. Samples, where a force is sampled, grow as N^(3/2), so that their error falls as
 // N^-3.
 
-#include <arcslip/observables/response.hpp>
+#include <arcslip/results/response.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
 

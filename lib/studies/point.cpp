@@ -1,13 +1,13 @@
 // The study "point": the responses at one frequency, with everything that is known of them.
-#include <arcslip/observables/motion.hpp>
+#include <arcslip/analyses/modes_and_time/time_results.hpp>
+#include <arcslip/analyses/responses/responses_at.hpp>
 #include <arcslip/observables/quantities.hpp>
-#include <arcslip/observables/responses_at.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
-#include <arcslip/studies/columns.hpp>
-#include <arcslip/studies/figures.hpp>
+#include <arcslip/studies/presentation/columns.hpp>
+#include <arcslip/studies/presentation/figures.hpp>
 #include <arcslip/studies/stability_keys.hpp>
 #include <arcslip/studies/study_of.hpp>
 

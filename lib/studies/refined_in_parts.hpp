@@ -1,8 +1,8 @@
 #pragma once
 // KindOf::refine of studies of responses: more harmonics where they need them.
 
-#include <arcslip/observables/curves.hpp>
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/analyses/responses/parameter_response.hpp>
 #include <arcslip/studies/study_of.hpp>
 
 #include <optional>

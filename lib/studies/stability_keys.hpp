@@ -1,8 +1,8 @@
 #pragma once
 // The keys of studies that tell the stability of their responses.
 
-#include <arcslip/observables/stability_request.hpp>
-#include <arcslip/scene/study_keys.hpp>
+#include <arcslip/scene/keys/study_keys.hpp>
+#include <arcslip/stability/stability_request.hpp>
 
 #include <string>
 #include <utility>

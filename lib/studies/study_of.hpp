@@ -2,10 +2,10 @@
 // A kind of study defined by a few functions of its settings S and of the items it computes (branches,
 // motions, optima).
 
-#include <arcslip/scene/study_keys.hpp>
-#include <arcslip/studies/columns.hpp>
+#include <arcslip/scene/keys/study_keys.hpp>
 #include <arcslip/studies/computation.hpp>
-#include <arcslip/studies/described.hpp>
+#include <arcslip/studies/presentation/columns.hpp>
+#include <arcslip/studies/presentation/result_description.hpp>
 
 #include <algorithm>
 #include <functional>

@@ -1,9 +1,9 @@
 // The study "sweep": which motions a slow sweep of the frequency follows.
-#include <arcslip/observables/frequency_sweep.hpp>
+#include <arcslip/analyses/modes_and_time/frequency_sweep.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/catalogue.hpp>
-#include <arcslip/studies/figures.hpp>
+#include <arcslip/studies/presentation/figures.hpp>
 #include <arcslip/studies/study_of.hpp>
 
 #include <array>

@@ -1,7 +1,7 @@
-#include <arcslip/observables/time_study.hpp>
+#include <arcslip/analyses/modes_and_time/time_study.hpp>
 #include <arcslip/studies/catalogue.hpp>
-#include <arcslip/studies/figures.hpp>
-#include <arcslip/studies/motions.hpp>
+#include <arcslip/studies/presentation/figures.hpp>
+#include <arcslip/studies/presentation/motions.hpp>
 #include <arcslip/studies/study_of.hpp>
 
 #include <array>

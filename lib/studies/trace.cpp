@@ -1,4 +1,4 @@
-#include <arcslip/observables/curves.hpp>
+#include <arcslip/analyses/responses/parameter_response.hpp>
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/method_key.hpp>

@@ -1,5 +1,6 @@
 // Where one piece of a curve of optima ends and another begins, and the responses that say whether it may.
 
+#include <arcslip/analyses/branches/stop_reason.hpp>
 #include <arcslip/optimize/curve/curve_of_optima.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
 

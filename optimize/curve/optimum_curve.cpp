@@ -1,3 +1,4 @@
+#include <arcslip/analyses/branches/stop_reason.hpp>
 #include <arcslip/optimize/curve/curve_of_optima.hpp>
 #include <arcslip/optimize/peaks/peak_unknowns.hpp>
 #include <arcslip/optimize/search/reasons.hpp>

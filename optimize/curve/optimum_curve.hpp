@@ -18,8 +18,8 @@
 // not tracked, the section since the last response is repeated with more responses. If these do not show the
 // origin of the peak, the curve ends there with a message: it never jumps.
 
-#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
+#include <arcslip/results/event_kinds.hpp>
 
 #include <functional>
 #include <string>

@@ -1,8 +1,8 @@
 #pragma once
 // Why a minimization ended.
 
-#include <arcslip/observables/reasons.hpp>
 #include <arcslip/results/reason.hpp>
+#include <arcslip/results/reasons.hpp>
 
 #include <string_view>
 

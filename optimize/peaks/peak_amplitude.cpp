@@ -1,11 +1,11 @@
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
 
+#include <arcslip/analyses/branches/unbounded_resonance.hpp>
 #include <arcslip/continuation/problem/text.hpp>
-#include <arcslip/observables/event_kinds.hpp>
-#include <arcslip/observables/unbounded.hpp>
 #include <arcslip/optimize/nlopt/minimize.hpp>
 #include <arcslip/optimize/peaks/follower.hpp>
 #include <arcslip/optimize/peaks/peak_unknowns.hpp>
+#include <arcslip/results/event_kinds.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,9 @@
 // tangent prediction and Newton's method on the equations of the peak, in as many steps as needed.
 //
 //   resonance   dA/ds = 0 along the response (continuation/special_points/stationary.hpp)
-//   corner      onset of slip of an element (hbm/corner.hpp), with slopes of opposite sign on both sides
-//   lower_end, upper_end   the response at the ends of the window; one for each of several extrema of the
+//   corner      onset of slip of an element (hbm/grazing_problem.hpp), with slopes of opposite sign on both
+//   sides lower_end, upper_end   the response at the ends of the window; one for each of several extrema of
+//   the
 //                          motion nearly equally high there, since A has a kink where two are equal
 //   kink        another kink, such as two equally high extrema of the motion
 //
@@ -18,11 +19,11 @@
 // (Watched) are not watched: an unexpected new peak is detected at the next response, such as that at the end
 // of a search.
 
-#include <arcslip/observables/curve_section.hpp>
-#include <arcslip/observables/frequency_branch.hpp>
-#include <arcslip/observables/response.hpp>
-#include <arcslip/observables/sensitivity.hpp>
+#include <arcslip/analyses/branches/frequency_branch.hpp>
+#include <arcslip/analyses/curves/sensitivity.hpp>
+#include <arcslip/analyses/curves/special_point_observer.hpp>
 #include <arcslip/optimize/nlopt/interrupted.hpp>
+#include <arcslip/results/response.hpp>
 
 #include <cstddef>
 #include <cstdint>

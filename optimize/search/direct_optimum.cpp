@@ -1,11 +1,11 @@
+#include <arcslip/analyses/curves/curves.hpp>
 #include <arcslip/continuation/problem/text.hpp>
-#include <arcslip/observables/curves.hpp>
-#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
 #include <arcslip/optimize/search/design_space.hpp>
 #include <arcslip/optimize/search/multipliers.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
+#include <arcslip/results/event_kinds.hpp>
 
 #include <algorithm>
 #include <span>

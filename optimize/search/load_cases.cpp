@@ -1,6 +1,6 @@
 #include <arcslip/optimize/search/load_cases.hpp>
 
-#include <arcslip/studies/in_order.hpp>
+#include <arcslip/control/ordered_parallel_for.hpp>
 
 #include <algorithm>
 #include <atomic>

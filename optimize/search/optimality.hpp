@@ -16,7 +16,7 @@
 //
 // Each peak is tracked by a follower with the equations of its kind, so that the unknowns are few and
 // resonances, corners and ends of the window are treated alike; the Jacobian is exact, from second
-// derivatives (observables/sensitivity.hpp).
+// derivatives (analyses/curves/sensitivity.hpp).
 
 #include <arcslip/continuation/problem/problem.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>

@@ -1,7 +1,7 @@
 #include <arcslip/optimize/search/optimum.hpp>
 
+#include <arcslip/analyses/branches/branch_description.hpp>
 #include <arcslip/continuation/problem/text.hpp>
-#include <arcslip/observables/study_branches.hpp>
 #include <arcslip/optimize/nlopt/interrupted.hpp>
 #include <arcslip/optimize/search/convergence.hpp>
 #include <arcslip/optimize/search/reasons.hpp>

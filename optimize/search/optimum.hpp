@@ -22,12 +22,12 @@
 // added as another case, until local searches and corners find no higher amplitude (Mutapcic & Boyd 2009).
 // Limits apply at the q that are cases.
 
-#include <arcslip/observables/frequency_response.hpp>
-#include <arcslip/observables/response.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/optimize/nlopt/minimize.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
 #include <arcslip/optimize/search/certificate.hpp>
 #include <arcslip/optimize/search/design.hpp>
+#include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <cstddef>

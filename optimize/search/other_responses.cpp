@@ -1,10 +1,10 @@
 #include <arcslip/optimize/search/other_responses.hpp>
 
+#include <arcslip/analyses/branches/frequency_branch.hpp>
+#include <arcslip/analyses/branches/other_solutions.hpp>
+#include <arcslip/analyses/curves/sensitivity.hpp>
 #include <arcslip/continuation/diagrams/deflation.hpp>
-#include <arcslip/observables/frequency_branch.hpp>
 #include <arcslip/observables/observe.hpp>
-#include <arcslip/observables/sensitivity.hpp>
-#include <arcslip/observables/solutions_beside.hpp>
 
 #include <cmath>
 #include <optional>

@@ -2,9 +2,9 @@
 // Reasons why a search or a curve of optima stopped (Stop::reason), each defined once and listed in
 // docs/results.md.
 
-#include <arcslip/observables/reasons.hpp>
 #include <arcslip/optimize/nlopt/reason.hpp>
 #include <arcslip/results/reason.hpp>
+#include <arcslip/results/reasons.hpp>
 
 #include <array>
 

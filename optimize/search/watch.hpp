@@ -2,7 +2,7 @@
 // Interruption and time limit of a search. One watch is passed to all phases of a search, and by them down to
 // each step of each trace, so that anything longer than a second can be interrupted. Not installed.
 
-#include <arcslip/observables/response.hpp>
+#include <arcslip/results/response.hpp>
 
 #include <chrono>
 #include <functional>

@@ -1,7 +1,7 @@
 #include <arcslip/optimize/search/window_check.hpp>
 
-#include <arcslip/observables/resonances.hpp>
-#include <arcslip/observables/study_branches.hpp>
+#include <arcslip/analyses/branches/branch_description.hpp>
+#include <arcslip/analyses/branches/resonances.hpp>
 #include <arcslip/optimize/peaks/peak_unknowns.hpp>
 
 #include <algorithm>

@@ -2,11 +2,11 @@
 
 #include <arcslip/optimize/study/optimum_figures.hpp>
 
-#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/optimize/study/optimum_text.hpp>
+#include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/text.hpp>
-#include <arcslip/studies/figures.hpp>
-#include <arcslip/studies/units.hpp>
+#include <arcslip/studies/presentation/figures.hpp>
+#include <arcslip/studies/presentation/units.hpp>
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include <arcslip/optimize/study/optimum_text.hpp>
 
 #include <arcslip/results/table_of.hpp>
-#include <arcslip/studies/columns.hpp>
+#include <arcslip/studies/presentation/columns.hpp>
 
 #include <cmath>
 #include <memory>

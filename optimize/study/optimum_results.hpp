@@ -4,7 +4,7 @@
 
 #include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/scene/scene.hpp>
-#include <arcslip/studies/described.hpp>
+#include <arcslip/studies/presentation/result_description.hpp>
 
 #include <string>
 

@@ -1,10 +1,10 @@
 #include <arcslip/optimize/study/optimum_study.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/control/ordered_parallel_for.hpp>
 #include <arcslip/optimize/search/design_space.hpp>
 #include <arcslip/optimize/search/scaled_parameter.hpp>
 #include <arcslip/optimize/search/watch.hpp>
-#include <arcslip/studies/in_order.hpp>
 
 #include <algorithm>
 #include <cmath>

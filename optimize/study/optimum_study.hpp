@@ -2,7 +2,7 @@
 // Studies of kind "optimum": the search, the direct method for comparison, and the responses near
 // the optimum.
 
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/optimize/curve/optimum_curve.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 #include <arcslip/scene/scene.hpp>

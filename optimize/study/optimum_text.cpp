@@ -1,7 +1,7 @@
 #include <arcslip/optimize/study/optimum_text.hpp>
 
 #include <arcslip/results/text.hpp>
-#include <arcslip/studies/units.hpp>
+#include <arcslip/studies/presentation/units.hpp>
 
 #include <algorithm>
 #include <cmath>

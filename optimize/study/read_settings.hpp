@@ -2,7 +2,7 @@
 // Reads the design parameters, limits and load cases of a study of kind "optimum". Not installed.
 
 #include <arcslip/optimize/search/optimum.hpp>
-#include <arcslip/scene/study_keys.hpp>
+#include <arcslip/scene/keys/study_keys.hpp>
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #include "contains.hpp"
 #include "program.hpp"
 
-#include "lib/scene/mat_bytes.hpp"
+#include "lib/scene/files/mat_bytes.hpp"
 
 #include <chrono>
 #include <csignal>
@@ -69,7 +69,7 @@ TEST_CASE("a damaged MATLAB file of version 7.3 is a fault of the scene, and end
   const Workplace place;
   write_scene(place);
   for (const std::string name : {"damaged_accumulator.mat", "damaged_chunk.mat"}) {
-    fs::copy_file(source_folder() + "/tests/lib/scene/" + name, place / "A.mat",
+    fs::copy_file(source_folder() + "/tests/lib/scene/files/" + name, place / "A.mat",
                   fs::copy_options::overwrite_existing);
     const Ended ended = run(place, {"check", "mat.json"});
     CHECK(ended.signal == 0);

@@ -8,14 +8,14 @@
 #include <arcslip/continuation/special_points/hopf_curve.hpp>
 #include <arcslip/continuation/special_points/stationary.hpp>
 #include <arcslip/continuation/tracing/corrector.hpp>
-#include <arcslip/elements/bouc_wen.hpp>
-#include <arcslip/elements/cubic_spring.hpp>
-#include <arcslip/elements/jenkins.hpp>
-#include <arcslip/elements/quadratic_damper.hpp>
-#include <arcslip/elements/van_der_pol.hpp>
 #include <arcslip/hbm/problem.hpp>
+#include <arcslip/laws/hysteresis/bouc_wen.hpp>
+#include <arcslip/laws/hysteresis/jenkins.hpp>
+#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/quadratic_damper.hpp>
+#include <arcslip/laws/memoryless/van_der_pol.hpp>
 #include <arcslip/model/model.hpp>
-#include <arcslip/time/newmark.hpp>
+#include <arcslip/time/newmark/newmark.hpp>
 
 #include <cstdlib>
 #include <new>

@@ -4,19 +4,20 @@
 #include "catalogue.hpp"
 #include "csv_text.hpp"
 
-#include <arcslip/elements/van_der_pol.hpp>
-#include <arcslip/observables/accuracy.hpp>
-#include <arcslip/observables/curves.hpp>
-#include <arcslip/observables/frequency_response.hpp>
-#include <arcslip/observables/frequency_sweep.hpp>
-#include <arcslip/observables/reasons.hpp>
-#include <arcslip/observables/responses_at.hpp>
-#include <arcslip/observables/time_study.hpp>
+#include <arcslip/analyses/curves/curves.hpp>
+#include <arcslip/analyses/modes_and_time/accuracy.hpp>
+#include <arcslip/analyses/modes_and_time/frequency_sweep.hpp>
+#include <arcslip/analyses/modes_and_time/time_study.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/analyses/responses/parameter_response.hpp>
+#include <arcslip/analyses/responses/responses_at.hpp>
+#include <arcslip/laws/memoryless/van_der_pol.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
+#include <arcslip/results/reasons.hpp>
 #include <arcslip/scene/scene.hpp>
-#include <arcslip/studies/branches.hpp>
+#include <arcslip/studies/presentation/branches.hpp>
 #include <arcslip/studies/study_of.hpp>
 
 #include <nlohmann/json.hpp>

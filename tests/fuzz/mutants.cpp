@@ -7,7 +7,7 @@
 
 #include "fuzz/examine.hpp"
 #include "fuzz/mutation.hpp"
-#include "lib/scene/bad_scenes.hpp"
+#include "lib/scene/format/bad_scenes.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,16 +1,14 @@
 # cmake -D FOLDER=(absolute) -P laws.cmake
-# Fails where a product file outside of lib/elements names a law of force: all that is asked of one is in
-# lib/elements/law.hpp. The names are those of the files that hold the laws.
+# Fails where a product file outside of lib/laws names a law of force: all that is asked of one is in
+# lib/laws/law.hpp. The names are those of the files that hold the laws.
 cmake_minimum_required(VERSION 3.25)
 
-file(READ ${FOLDER}/lib/elements/law.cpp catalogue)
-string(REGEX MATCHALL "arcslip/elements/[a-z_]+\\.hpp" headers "${catalogue}")
+file(READ ${FOLDER}/lib/studies/catalogue.cpp catalogue)
+string(REGEX MATCHALL "arcslip/laws/[a-z]+/[a-z_]+\\.hpp" headers "${catalogue}")
 set(names "")
 foreach(header IN LISTS headers)
   get_filename_component(name ${header} NAME_WE)
-  if(NOT name STREQUAL "law")
-    list(APPEND names ${name})
-  endif()
+  list(APPEND names ${name})
 endforeach()
 list(LENGTH names count)
 if(count LESS 3)
@@ -20,7 +18,7 @@ list(JOIN names "|" names)
 
 set(wrong "")
 file(GLOB_RECURSE files ${FOLDER}/lib/*.?pp ${FOLDER}/optimize/*.?pp ${FOLDER}/app/*.?pp)
-list(FILTER files EXCLUDE REGEX "/lib/(elements/|structures\\.hpp$)")  # and the umbrella
+list(FILTER files EXCLUDE REGEX "/lib/(laws/|studies/catalogue\\.cpp$|structures\\.hpp$)")  # and the umbrella
 foreach(file IN LISTS files)
   file(READ ${file} text)
   string(TOLOWER "${text}" text)
@@ -29,5 +27,5 @@ foreach(file IN LISTS files)
   endif()
 endforeach()
 if(wrong)
-  message(FATAL_ERROR "laws that are named outside of lib/elements:\n${wrong}")
+  message(FATAL_ERROR "laws that are named outside of lib/laws:\n${wrong}")
 endif()

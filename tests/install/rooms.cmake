@@ -11,17 +11,43 @@ set(continuation/tracing ${continuation/special_points} continuation/tracing)
 set(continuation/diagrams ${continuation/tracing} continuation/diagrams)
 set(continuation ${continuation/diagrams})
 
+set(control control)
 set(results results)
-set(scene results scene)
-set(elements scene elements)
-set(structure ${continuation} scene structure)
-set(model ${continuation} results scene elements structure model)
-set(hbm ${continuation} elements model hbm)
-set(time ${continuation} results elements model hbm time)
-set(observables ${continuation} results scene elements structure model hbm time observables)
-set(studies results scene elements observables studies)
-set(output results scene output)
-set(structures ${continuation} results scene elements structure model hbm time observables studies output)
+set(scene control results scene)
+set(scene/keys control results scene scene/keys)
+set(scene/files control results scene scene/keys scene/files)
+set(scene/format control scene scene/keys scene/files scene/format)
+set(fourier fourier)
+set(laws results scene scene/keys fourier laws)
+set(laws/memoryless scene/keys fourier laws laws/memoryless)
+set(laws/hysteresis scene/keys fourier laws laws/hysteresis)
+set(laws/contact fourier laws laws/contact)
+set(structure ${continuation} control scene structure)
+set(model ${continuation} control results scene scene/files laws structure model)
+set(hbm/linear ${continuation} model hbm/linear)
+set(hbm ${continuation} control fourier laws hbm/linear hbm)
+set(time/equation ${continuation} results model time/equation)
+set(time/event_driven ${continuation} time/equation time/event_driven)
+set(time/newmark ${continuation} time/equation time/newmark)
+set(time/periodic ${continuation} results time/equation time/event_driven time/newmark time/periodic)
+set(stability ${continuation} results fourier laws laws/contact hbm time/equation time/event_driven stability)
+set(observables ${continuation} results scene fourier laws model hbm stability observables)
+set(analyses/branches ${continuation} control results scene fourier model hbm stability observables analyses/branches)
+set(analyses/responses ${continuation} control results scene hbm time/periodic stability observables analyses/branches
+    analyses/responses)
+set(analyses/curves ${continuation} control results scene fourier hbm stability observables analyses/branches
+    analyses/responses analyses/curves)
+set(analyses/modes_and_time ${continuation} control results scene model hbm time/equation time/periodic stability
+    observables analyses/branches analyses/responses analyses/modes_and_time)
+set(studies/presentation results scene laws model observables analyses/curves analyses/modes_and_time
+    studies/presentation)
+set(studies control results scene scene/keys laws/memoryless laws/hysteresis laws/contact stability observables
+    analyses/responses analyses/curves analyses/modes_and_time studies/presentation studies)
+set(output control results output)
+set(structures ${continuation} control results scene scene/keys scene/files scene/format fourier laws laws/memoryless
+    laws/hysteresis laws/contact structure model hbm/linear hbm time/equation time/event_driven time/newmark
+    time/periodic stability observables analyses/branches analyses/responses analyses/curves analyses/modes_and_time
+    studies/presentation studies output)
 
 set(optimize/nlopt ${structures} optimize/nlopt)
 set(optimize/peaks ${structures} optimize/nlopt optimize/peaks)
@@ -31,7 +57,7 @@ set(optimize/study ${optimize/curve} optimize/study)
 set(optimize ${optimize/study} optimize)
 
 file(GLOB folders LIST_DIRECTORIES true RELATIVE ${FOLDER}
-     ${FOLDER}/lib/* ${FOLDER}/continuation/* ${FOLDER}/optimize ${FOLDER}/optimize/*)
+     ${FOLDER}/lib/* ${FOLDER}/lib/*/* ${FOLDER}/continuation/* ${FOLDER}/optimize ${FOLDER}/optimize/*)
 set(wrong "")
 foreach(folder IN LISTS folders)
   file(GLOB files ${FOLDER}/${folder}/*.hpp ${FOLDER}/${folder}/*.cpp)

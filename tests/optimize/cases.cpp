@@ -2,12 +2,12 @@
 
 #include "catch.hpp"
 
+#include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
-#include "lib/observables/reference.hpp"
 #include "optimize/optima.hpp"
 #include "optimize/paper_optimum.hpp"
 
-#include <arcslip/elements/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/cubic_spring.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 

@@ -6,7 +6,7 @@
 #include "lib/hbm/scenes.hpp"
 #include "optimize/optima.hpp"
 
-#include <arcslip/observables/time_study.hpp>
+#include <arcslip/analyses/modes_and_time/time_study.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 

@@ -6,7 +6,7 @@
 
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/observables/curves.hpp>
+#include <arcslip/analyses/curves/curves.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 

@@ -3,11 +3,11 @@
 #include "catch.hpp"
 #include "contains.hpp"
 
+#include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
-#include "lib/observables/reference.hpp"
 #include "optimize/paper_optimum.hpp"
 
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
 

@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 
-#include "lib/observables/reference.hpp"
+#include "lib/analyses/responses/reference.hpp"
 #include "optimize/optimum_curves.hpp"
 
 #include <algorithm>

@@ -3,10 +3,10 @@
 #include "catch.hpp"
 #include "contains.hpp"
 
-#include "lib/observables/reference.hpp"
+#include "lib/analyses/responses/reference.hpp"
 #include "optimize/optimum_curves.hpp"
 
-#include <arcslip/observables/curves.hpp>
+#include <arcslip/analyses/responses/parameter_response.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,12 +2,12 @@
 
 #include "catch.hpp"
 
+#include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
-#include "lib/observables/reference.hpp"
 #include "optimize/row.hpp"
 
-#include <arcslip/elements/jenkins.hpp>
+#include <arcslip/laws/hysteresis/jenkins.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
 
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/optimize/search/design_evaluations.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 

@@ -8,7 +8,7 @@
 #include "lib/hbm/scenes.hpp"
 #include "optimize/random_optima.hpp"
 
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
 

@@ -3,9 +3,10 @@
 #include "catch.hpp"
 #include "environment.hpp"
 
-#include <arcslip/observables/reasons.hpp>
-#include <arcslip/observables/response.hpp>
+#include <arcslip/analyses/branches/stop_reason.hpp>
 #include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/results/reasons.hpp>
+#include <arcslip/results/response.hpp>
 
 #include <algorithm>
 #include <fstream>

@@ -4,10 +4,10 @@
 
 #include "optimize/row.hpp"
 
-#include <arcslip/observables/event_kinds.hpp>
 #include <arcslip/optimize/search/load_cases.hpp>
 #include <arcslip/optimize/search/multipliers.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
+#include <arcslip/results/event_kinds.hpp>
 
 #include <algorithm>
 #include <cmath>

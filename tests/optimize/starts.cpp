@@ -2,8 +2,8 @@
 
 #include "catch.hpp"
 
+#include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
-#include "lib/observables/reference.hpp"
 #include "optimize/row.hpp"
 
 #include <arcslip/optimize/search/optimum.hpp>

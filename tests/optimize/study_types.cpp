@@ -3,11 +3,11 @@
 #include "environment.hpp"
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/observables/curves.hpp>
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/analyses/curves/curves.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/optimize/studies.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
-#include <arcslip/scene/json_schema.hpp>
+#include <arcslip/scene/format/json_schema.hpp>
 #include <arcslip/scene/study_type.hpp>
 #include <arcslip/studies/catalogue.hpp>
 

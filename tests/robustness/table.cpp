@@ -6,13 +6,13 @@
 #include "app/output_paths.hpp"
 #include "app/results_folder.hpp"
 #include "fuzz/mutation.hpp"
-#include "lib/observables/extremes.hpp"
-#include "lib/observables/parameter_ranges.hpp"
-#include "lib/observables/responses_at.hpp"
-#include "lib/observables/structures.hpp"
+#include "lib/analyses/branches/parameter_ranges.hpp"
+#include "lib/analyses/branches/structures.hpp"
+#include "lib/analyses/responses/extremes.hpp"
+#include "lib/analyses/responses/responses_at.hpp"
 #include "lib/observables/truncation.hpp"
-#include "lib/scene/bad_scenes.hpp"
-#include "lib/scene/mat_mutants.hpp"
+#include "lib/scene/files/mat_mutants.hpp"
+#include "lib/scene/format/bad_scenes.hpp"
 #include "lib/studies/mode_accuracy.hpp"
 #include "optimize/limited_searches.hpp"
 #include "optimize/random_optima.hpp"
@@ -125,7 +125,7 @@ reference, with the relative tolerance of the test.
   }
   std::cout << R"(
 The row of N = 501 is among the long tests (ctest label `long`). So are the sweeps of
-`tests/lib/observables/sweeps.cpp`, which hold the peaks of every load against the exact solution with N = 101, and many
+`tests/lib/analyses/responses/sweeps.cpp`, which hold the peaks of every load against the exact solution with N = 101, and many
 slip phases at low frequency with an order past the resonance; they run in reduced size, and in full with
 `ARCSLIP_FULL=1 tests/run -L long`.
 )";

@@ -4,10 +4,10 @@
 #include "figures.hpp"
 #include "studies.hpp"
 
+#include <arcslip/analyses/modes_and_time/time_study.hpp>
 #include <arcslip/observables/histories.hpp>
-#include <arcslip/observables/time_study.hpp>
 #include <arcslip/results/text.hpp>
-#include <arcslip/studies/units.hpp>
+#include <arcslip/studies/presentation/units.hpp>
 
 #include <cmath>
 #include <stdexcept>

@@ -2,7 +2,7 @@
 
 #include <arcslip/output/atomic_file.hpp>
 #include <arcslip/results/text.hpp>
-#include <arcslip/studies/units.hpp>
+#include <arcslip/studies/presentation/units.hpp>
 
 #include <ostream>
 #include <stdexcept>

@@ -1,11 +1,12 @@
 #include "studies.hpp"
 
-#include <arcslip/elements/jenkins.hpp>
+#include <arcslip/analyses/curves/curves.hpp>
+#include <arcslip/laws/hysteresis/jenkins.hpp>
 #include <arcslip/optimize/studies.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/catalogue.hpp>
+#include <arcslip/studies/presentation/units.hpp>
 #include <arcslip/studies/study_of.hpp>
-#include <arcslip/studies/units.hpp>
 
 #include <algorithm>
 #include <cmath>

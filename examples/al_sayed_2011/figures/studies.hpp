@@ -4,9 +4,9 @@
 
 #include "data_file.hpp"
 
-#include <arcslip/observables/curves.hpp>
-#include <arcslip/observables/response.hpp>
-#include <arcslip/observables/time_study.hpp>
+#include <arcslip/analyses/modes_and_time/time_study.hpp>
+#include <arcslip/analyses/responses/parameter_response.hpp>
+#include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <functional>

@@ -2,17 +2,17 @@
 
 #include "catch.hpp"
 
+#include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
-#include "lib/observables/reference.hpp"
 
+#include <arcslip/analyses/modes_and_time/time_study.hpp>
+#include <arcslip/analyses/responses/responses_at.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
 #include <arcslip/hbm/problem.hpp>
-#include <arcslip/observables/responses_at.hpp>
-#include <arcslip/observables/time_study.hpp>
-#include <arcslip/time/from_harmonics.hpp>
-#include <arcslip/time/newmark_periods.hpp>
-#include <arcslip/time/shooting.hpp>
+#include <arcslip/stability/state_from_harmonics.hpp>
+#include <arcslip/time/newmark/newmark_periods.hpp>
+#include <arcslip/time/periodic/shooting.hpp>
 
 #include <cmath>
 #include <numbers>

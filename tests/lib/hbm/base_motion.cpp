@@ -4,10 +4,11 @@
 #include "contains.hpp"
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/observables/curves.hpp>
+#include <arcslip/analyses/curves/curves.hpp>
+#include <arcslip/analyses/modes_and_time/time_study.hpp>
+#include <arcslip/analyses/responses/parameter_response.hpp>
+#include <arcslip/analyses/responses/responses_at.hpp>
 #include <arcslip/observables/observe.hpp>
-#include <arcslip/observables/responses_at.hpp>
-#include <arcslip/observables/time_study.hpp>
 
 #include <Eigen/LU>
 

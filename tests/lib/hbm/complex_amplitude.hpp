@@ -2,7 +2,7 @@
 // Fourier coefficients as complex amplitudes.
 
 #include <arcslip/continuation/problem/problem.hpp>
-#include <arcslip/elements/harmonics.hpp>
+#include <arcslip/fourier/harmonics.hpp>
 
 #include <complex>
 

@@ -2,8 +2,8 @@
 
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/elements/jenkins.hpp>
 #include <arcslip/hbm/problem.hpp>
+#include <arcslip/laws/hysteresis/jenkins.hpp>
 
 using namespace arcslip;
 using continuation::Needs;

@@ -2,9 +2,9 @@
 
 #include "random.hpp"
 
-#include <arcslip/elements/cubic_spring.hpp>
-#include <arcslip/elements/jenkins.hpp>
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/laws/hysteresis/jenkins.hpp>
+#include <arcslip/laws/memoryless/cubic_spring.hpp>
 #include <arcslip/studies/catalogue.hpp>
 
 #include <algorithm>

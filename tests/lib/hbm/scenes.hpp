@@ -4,7 +4,7 @@
 #include "catalogue.hpp"
 #include "environment.hpp"
 
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/study_of.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 // A spring of two directions with the potential k/4 (q_1^2 + q_2^2)^2: f_i = k (q_1^2 + q_2^2) q_i.
 
-#include <arcslip/elements/sampled_law.hpp>
+#include <arcslip/laws/sampled_law.hpp>
 
 #include <limits>
 

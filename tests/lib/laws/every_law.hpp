@@ -4,7 +4,7 @@
 
 #include "catch.hpp"
 
-#include <arcslip/elements/law.hpp>
+#include <arcslip/laws/law.hpp>
 
 #include <algorithm>
 #include <cmath>

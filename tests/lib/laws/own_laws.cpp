@@ -8,13 +8,13 @@
 #include "lib/laws/two_sliders.hpp"
 #include "lib/scene/folder.hpp"
 
+#include <arcslip/analyses/modes_and_time/time_study.hpp>
+#include <arcslip/analyses/responses/responses_at.hpp>
 #include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/hbm/problem.hpp>
-#include <arcslip/observables/responses_at.hpp>
-#include <arcslip/observables/time_study.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
-#include <arcslip/scene/json_schema.hpp>
-#include <arcslip/time/newmark_periods.hpp>
+#include <arcslip/scene/format/json_schema.hpp>
+#include <arcslip/time/newmark/newmark_periods.hpp>
 
 #include <nlohmann/json.hpp>
 

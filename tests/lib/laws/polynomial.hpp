@@ -2,8 +2,8 @@
 // f = c_1 q + c_2 q^2 + ... up to a degree that is an option of the element, and with it the number of
 // fields.
 
-#include <arcslip/elements/sampled_law.hpp>
-#include <arcslip/scene/study_keys.hpp>
+#include <arcslip/laws/sampled_law.hpp>
+#include <arcslip/scene/keys/study_keys.hpp>
 
 #include <cmath>
 #include <limits>

@@ -2,20 +2,20 @@
 #include "lib/laws/every_law.hpp"
 
 #include "lib/laws/coupled_spring.hpp"
-#include "lib/laws/iwan_laws.hpp"
+#include "lib/laws/hysteresis/iwan_laws.hpp"
 #include "lib/laws/polynomial.hpp"
 #include "lib/laws/renamed_jenkins.hpp"
 
-#include "lib/laws/piecewise_linear_laws.hpp"
+#include "lib/laws/memoryless/piecewise_linear_laws.hpp"
 
-#include <arcslip/elements/bouc_wen.hpp>
-#include <arcslip/elements/contact_2d.hpp>
-#include <arcslip/elements/contact_3d.hpp>
-#include <arcslip/elements/cubic_spring.hpp>
-#include <arcslip/elements/polynomial_spring.hpp>
-#include <arcslip/elements/quadratic_damper.hpp>
-#include <arcslip/elements/tanh_friction.hpp>
-#include <arcslip/elements/van_der_pol.hpp>
+#include <arcslip/laws/contact/contact_2d.hpp>
+#include <arcslip/laws/contact/contact_3d.hpp>
+#include <arcslip/laws/hysteresis/bouc_wen.hpp>
+#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/polynomial_spring.hpp>
+#include <arcslip/laws/memoryless/quadratic_damper.hpp>
+#include <arcslip/laws/memoryless/tanh_friction.hpp>
+#include <arcslip/laws/memoryless/van_der_pol.hpp>
 
 using namespace every_law;
 
@@ -41,7 +41,7 @@ struct Example {
   double rough;  // of differences of an element in the frequency domain, where it is sampled and has kinks
 };
 
-// Rigid friction, whose force jumps, has checks of its own: elements/coulomb.cpp.
+// Rigid friction, whose force jumps, has checks of its own: laws/memoryless/coulomb.cpp.
 const Example all[] = {
     {elements::jenkins(), {2, 0.5, 1}, 1e-7},
     {renamed_law, {0.5, 1, 2}, 1e-7},

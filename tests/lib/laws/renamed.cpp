@@ -6,6 +6,7 @@
 #include "lib/laws/renamed_jenkins.hpp"
 
 #include <arcslip/results/json_writer.hpp>
+#include <arcslip/studies/catalogue.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 // The Jenkins element under another name, with other names for its fields in another order: what knows a law
 // by its name, or a field by its place, treats it differently.
 
-#include <arcslip/elements/jenkins.hpp>
+#include <arcslip/laws/hysteresis/jenkins.hpp>
 
 #include <array>
 #include <utility>

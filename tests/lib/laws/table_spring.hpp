@@ -1,8 +1,8 @@
 #pragma once
 // f(q) from a table in a file: "q,f" on each line, q rising through 0, linear between and beyond.
 
-#include <arcslip/elements/sampled_law.hpp>
-#include <arcslip/scene/study_keys.hpp>
+#include <arcslip/laws/sampled_law.hpp>
+#include <arcslip/scene/keys/study_keys.hpp>
 
 #include <algorithm>
 #include <memory>

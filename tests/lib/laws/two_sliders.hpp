@@ -1,7 +1,7 @@
 #pragma once
 // Two sliders with springs side by side in one element: two numbers of memory, two automata.
 
-#include <arcslip/elements/jenkins.hpp>
+#include <arcslip/laws/hysteresis/jenkins.hpp>
 
 #include <limits>
 

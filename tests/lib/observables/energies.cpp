@@ -3,11 +3,11 @@
 #include "catch.hpp"
 #include "size.hpp"
 
+#include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
-#include "lib/observables/reference.hpp"
 
-#include <arcslip/observables/curves.hpp>
+#include <arcslip/analyses/responses/parameter_response.hpp>
 
 #include <algorithm>
 #include <cmath>

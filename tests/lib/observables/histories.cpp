@@ -2,10 +2,10 @@
 
 #include "catch.hpp"
 
+#include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
-#include "lib/observables/reference.hpp"
 
-#include <arcslip/observables/curves.hpp>
+#include <arcslip/analyses/curves/curves.hpp>
 #include <arcslip/observables/histories.hpp>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/amplitude.hpp>
-#include <arcslip/observables/response.hpp>
+#include <arcslip/results/response.hpp>
 
 #include <cmath>
 #include <memory>

@@ -5,14 +5,14 @@
 
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/elements/contact_2d.hpp>
-#include <arcslip/elements/cubic_spring.hpp>
-#include <arcslip/observables/curves.hpp>
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/analyses/curves/curves.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/laws/contact/contact_2d.hpp>
+#include <arcslip/laws/memoryless/cubic_spring.hpp>
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/json_writer.hpp>
-#include <arcslip/scene/words.hpp>
-#include <arcslip/studies/branches.hpp>
+#include <arcslip/scene/keys/enum_words.hpp>
+#include <arcslip/studies/presentation/branches.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -152,7 +152,7 @@ TEST_CASE("the parameter of a study has no name by which points have a quantity"
     const std::string_view top = each.path.substr(0, each.path.find('.'));
     if (top == "frequency") continue;  // which no parameter of a scene is called
     CAPTURE(std::string(top));
-    INFO("\"" << top << "\" is to be one of result_names in scene/words.hpp");
+    INFO("\"" << top << "\" is to be one of result_names in scene/keys/enum_words.hpp");
     CHECK(std::count(scene::file::result_names.begin(), scene::file::result_names.end(), top) == 1);
   }
 }

@@ -2,7 +2,7 @@
 // The motion of 61 harmonics that a response of harmonic balance is an approximation of.
 
 #include <arcslip/hbm/problem.hpp>
-#include <arcslip/observables/response.hpp>
+#include <arcslip/results/response.hpp>
 
 #include <memory>
 #include <optional>

@@ -1,12 +1,13 @@
 #include "catch.hpp"
 #include "environment.hpp"
 
+#include "lib/analyses/branches/same_event.hpp"
+#include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/in_more_harmonics.hpp"
-#include "lib/observables/reference.hpp"
-#include "lib/observables/same_event.hpp"
 
-#include <arcslip/observables/curves.hpp>
+#include <arcslip/analyses/curves/curves.hpp>
+#include <arcslip/analyses/responses/parameter_response.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,11 +4,11 @@
 #include "catch.hpp"
 #include "random.hpp"
 
+#include "lib/analyses/branches/same_event.hpp"
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/in_more_harmonics.hpp"
-#include "lib/observables/same_event.hpp"
 #include "lib/observables/truncation.hpp"
-#include "lib/time/beside_exact.hpp"
+#include "lib/time/periodic/beside_exact.hpp"
 
 #include <iostream>
 #include <string>

@@ -2,9 +2,9 @@
 
 #include "catch.hpp"
 
+#include "lib/analyses/branches/same_event.hpp"
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/observables/in_more_harmonics.hpp"
-#include "lib/observables/same_event.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -5,7 +5,7 @@
 #include <arcslip/output/figure_labels.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/output/process.hpp>
-#include <arcslip/studies/figures.hpp>
+#include <arcslip/studies/presentation/figures.hpp>
 
 #include <chrono>
 #include <csignal>

@@ -3,8 +3,8 @@
 
 #include "lib/scene/folder.hpp"
 
-#include <arcslip/observables/reasons.hpp>
-#include <arcslip/observables/response.hpp>
+#include <arcslip/results/reasons.hpp>
+#include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/catalogue.hpp>
 

@@ -7,7 +7,7 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/model/model.hpp>
-#include <arcslip/observables/prepare.hpp>
+#include <arcslip/model/reduction_report.hpp>
 
 #include <cmath>
 #include <numbers>

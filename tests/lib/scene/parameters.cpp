@@ -1,14 +1,15 @@
 #include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/studies/catalogue.hpp>
 
 #include <limits>
 #include <sstream>
 
-#include "bad_scenes.hpp"
 #include "catalogue.hpp"
 #include "catch.hpp"
-#include "lib/scene/read_text.hpp"
+#include "lib/scene/format/bad_scenes.hpp"
+#include "lib/scene/format/read_text.hpp"
 
 using namespace arcslip::scene;
 using namespace arcslip::scene::test;

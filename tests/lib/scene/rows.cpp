@@ -2,9 +2,9 @@
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
-#include "lib/scene/bad_scenes.hpp"
+#include "lib/scene/format/bad_scenes.hpp"
 
-#include <arcslip/observables/curves.hpp>
+#include <arcslip/analyses/responses/parameter_response.hpp>
 #include <arcslip/scene/combinations.hpp>
 
 using namespace arcslip::scene;

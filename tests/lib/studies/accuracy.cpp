@@ -1,11 +1,11 @@
 // The study "accuracy": errors beside closed forms and exact numbers, and what it tells.
 #include "catch.hpp"
 
+#include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
-#include "lib/observables/reference.hpp"
 
-#include <arcslip/observables/accuracy.hpp>
-#include <arcslip/observables/reasons.hpp>
+#include <arcslip/analyses/modes_and_time/accuracy.hpp>
+#include <arcslip/results/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>

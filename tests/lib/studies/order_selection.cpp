@@ -2,16 +2,17 @@
 // is not.
 #include "catch.hpp"
 
+#include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
-#include "lib/observables/reference.hpp"
 
-#include <arcslip/observables/curves.hpp>
-#include <arcslip/observables/nonlinear_modes.hpp>
-#include <arcslip/observables/reasons.hpp>
-#include <arcslip/observables/responses_at.hpp>
-#include <arcslip/observables/time_study.hpp>
+#include <arcslip/analyses/curves/curves.hpp>
+#include <arcslip/analyses/modes_and_time/nonlinear_modes.hpp>
+#include <arcslip/analyses/modes_and_time/time_study.hpp>
+#include <arcslip/analyses/responses/parameter_response.hpp>
+#include <arcslip/analyses/responses/responses_at.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/results/json_writer.hpp>
+#include <arcslip/results/reasons.hpp>
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/order_selection.hpp>
 

@@ -6,7 +6,7 @@
 #include "lib/hbm/scenes.hpp"
 #include "volume.hpp"
 
-#include <arcslip/observables/frequency_response.hpp>
+#include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/studies/order_selection.hpp>
 
 #include <algorithm>

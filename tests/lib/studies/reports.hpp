@@ -5,10 +5,10 @@
 
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/observables/nonlinear_modes.hpp>
-#include <arcslip/observables/reasons.hpp>
-#include <arcslip/observables/responses_at.hpp>
+#include <arcslip/analyses/modes_and_time/nonlinear_modes.hpp>
+#include <arcslip/analyses/responses/responses_at.hpp>
 #include <arcslip/results/json_writer.hpp>
+#include <arcslip/results/reasons.hpp>
 #include <arcslip/studies/catalogue.hpp>
 
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 
 #include "lib/studies/reports.hpp"
 
-#include <arcslip/observables/time_study.hpp>
+#include <arcslip/analyses/modes_and_time/time_study.hpp>
 #include <arcslip/optimize/studies.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 

@@ -2,8 +2,8 @@
 #include "catch.hpp"
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/observables/curves.hpp>
-#include <arcslip/observables/time_study.hpp>
+#include <arcslip/analyses/curves/curves.hpp>
+#include <arcslip/analyses/modes_and_time/time_study.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/studies/catalogue.hpp>

@@ -1,9 +1,0 @@
-#include <arcslip/elements/element.hpp>
-
-namespace arcslip::elements {
-
-void Element::frequency_derivative(Out dF) const {
-  dF.setZero();
-}
-
-}  // namespace arcslip::elements

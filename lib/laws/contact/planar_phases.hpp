@@ -1,0 +1,102 @@
+#pragma once
+// The phases of a slider w in a disc that moves, over one period: centre x(theta), radius h(theta) >= 0.
+//
+//   stick  w rests while |x - w| < h
+//   slip   w = x - h n is carried along by the edge of the disc (slip_collocation.hpp)
+//   open   the disc is the point x where N = 0, and w = x
+//
+// The onset of slip is where |x - w|^2 - h^2 becomes positive (slip_onset.hpp). Slip ends where x'.n = h'.
+//
+// Where the contact opens, the phases follow from its closing in one pass. Else the map of w over one period
+// is non-expansive. If a rest is possible (stick_feasibility.hpp) there is full stick, with the centred rest.
+// If not, the periodic motion is unique and attracting: Newton's method for w after one period, with the map
+// itself as a safeguard.
+
+#include <arcslip/laws/contact/slip_collocation.hpp>
+#include <arcslip/laws/contact/stick_feasibility.hpp>
+#include <arcslip/laws/element.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace arcslip::elements {
+
+struct DiscPhase {
+  enum class State { open, stick, slip };
+  enum class Begin { closing, slip_end, onset, start, opening };
+  State state = State::open;
+  Begin from = Begin::start;
+  double begin = 0, end = 0;
+  Eigen::Vector2d w = Eigen::Vector2d::Zero();  // of stick
+  std::size_t first_panel = 0, last_panel = 0;  // of slip: [first, last)
+};
+
+/// Owns its buffers.
+class DiscPhases {
+ public:
+  explicit DiscPhases(const Harmonics& harmonics);
+
+  /// closed: the intervals in contact; the whole period where the contact never opens, none where it is open
+  /// throughout. `opens`: it is open for a part of the period. The first phase begins at a closing, at the
+  /// end of slip or, in full slip, anywhere; the last one ends a period later.
+  const std::vector<DiscPhase>& find(const Disc& disc, std::span<const std::pair<double, double>> closed,
+                                     bool opens);
+
+  // Of the last search.
+  const std::vector<DiscPhase>& list() const { return phases_; }
+  bool full_stick() const { return full_stick_; }
+  const StickCentre& centre() const { return centre_; }
+  /// By how much the radius falls short of full stick, if the contact never opens; else 0.
+  double short_of_stick() const { return short_of_stick_; }
+  const SlipPanel& panel(std::size_t k) const { return panels_[k]; }
+  const SlipCollocation& collocation() const { return collocation_; }
+  /// Whether the state after the period is that before it, to rounding.
+  bool periodic() const { return periodic_; }
+  /// x - w at an angle.
+  Eigen::Vector2d stretch(const Disc& disc, double theta) const;
+  /// A number for the sequence of phases, wherever it begins.
+  std::uint64_t sequence() const;
+  void tell(FrictionState& state) const;
+  void tell(std::vector<ContactInterval>& intervals) const;
+
+ private:
+  struct State {
+    bool slips = false;
+    Eigen::Vector2d w = Eigen::Vector2d::Zero();
+    double psi = 0;
+    Eigen::Vector2d moved = Eigen::Vector2d::Zero();  // of w, by slip
+  };
+  struct Period {
+    Eigen::Vector2d moved;  // change of w
+    Eigen::Matrix2d by;     // dw at the end by w at the beginning
+  };
+
+  struct Bracket {
+    double below, f_below, above, f_above;
+  };
+
+  State closing(const Disc& disc, double theta) const;
+  State at_rest(const Disc& disc, double theta, const Eigen::Vector2d& w) const;
+  Eigen::Vector2d slider(const DiscPoint& at, const State& state) const;
+  void march(const Disc& disc, State& state, DiscPhase::Begin from, double begin, double end,
+             Eigen::Matrix2d* by);
+  std::pair<double, double> spare(const Disc& disc, const SlipPanel& panel, double theta) const;
+  std::optional<Bracket> end_of_slip(const Disc& disc, const SlipPanel& panel) const;
+  double slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends);
+  Eigen::Vector2d displacement(const SlipPanel& panel) const;
+  Period period(const Disc& disc, double begin, const Eigen::Vector2d& w);
+  double iterate(const Disc& disc, double enough, Eigen::Vector2d& w);
+  void find_periodic(const Disc& disc);
+
+  Harmonics harmonics_;
+  SlipCollocation collocation_;
+  StickCentre centre_;
+  std::vector<DiscPhase> phases_;
+  std::vector<SlipPanel> panels_;
+  double tolerance_ = 0, longest_ = 0, short_of_stick_ = 0;
+  bool full_stick_ = false, periodic_ = true, opens_ = false;
+};
+
+}  // namespace arcslip::elements

@@ -1,0 +1,56 @@
+#include <arcslip/model/reduction_report.hpp>
+
+#include <arcslip/results/text.hpp>
+#include <arcslip/structure/reduction.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace arcslip::observables {
+namespace {
+
+double to_two_digits(double value) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.1e", value);
+  return std::strtod(digits, nullptr);
+}
+
+}  // namespace
+
+std::optional<model::Reduction> reduction(const scene::Scene& scene, const scene::StopRequest& stop) {
+  if (!scene.matrices || scene.matrices->highest_frequency == 0) return {};
+  try {
+    auto found = model::build(scene, stop).reduction;
+    found->error = to_two_digits(found->error);
+    return found;
+  } catch (const structure::ReductionError& error) {
+    const auto& bar = scene.matrices->bar;
+    throw scene::SceneError(std::vector<scene::Fault>{{std::string("/structure/") + (!bar         ? "matrices"
+                                                                                     : bar->bends ? "beam"
+                                                                                                  : "rod"),
+                                                       error.what()}});
+  }
+}
+
+std::string prepare(const scene::Scene& scene, const scene::StopRequest& stop) {
+  const auto done = reduction(scene, stop);
+  if (!done) return {};
+  // A closed ring is reduced as one.
+  const int copies = scene.matrices->faces.empty() ? scene.matrices->copies : 1;
+  const auto frequency = [&](double omega) {
+    return results::quantity(omega / scene::to_rad_per_s(scene.frequency_unit),
+                             scene::unit_name(scene.frequency_unit));
+  };
+  return "the structure of " + std::to_string(done->rows) + " rows was reduced to " +
+         std::to_string(done->kept) + " of them and " + std::to_string(done->coordinates) + " coordinates" +
+         (copies > 1 ? " in each of " + std::to_string(copies) + " copies" : "") +
+         "; error of its dynamic stiffness " + results::quantity(done->error, "-") + " up to " +
+         frequency(done->highest_frequency) +
+         (done->highest_speed > 0 ? " and speeds up to " + results::quantity(done->highest_speed, "rad/s")
+                                  : "") +
+         (done->free_below > 0 ? "; natural frequencies below " + frequency(to_two_digits(done->free_below)) +
+                                     " are not told from 0, that of motions as a rigid body"
+                               : "");
+}
+
+}  // namespace arcslip::observables

@@ -1,0 +1,473 @@
+#include <arcslip/scene/format/json_schema.hpp>
+
+#include <arcslip/scene/files/matrix_file.hpp>
+#include <arcslip/scene/format/repeat.hpp>
+#include <arcslip/scene/format/ring.hpp>
+#include <arcslip/scene/keys/enum_words.hpp>
+#include <arcslip/scene/keys/read_parts.hpp>
+#include <arcslip/scene/keys/write_values.hpp>
+#include <arcslip/scene/study_type.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace arcslip::scene {
+namespace file {
+namespace {
+
+using Object = Node::Object;
+
+Node of(Object members) {
+  return {std::move(members)};
+}
+
+Node of_type(std::string_view type) {
+  return of({{"type", node(type)}});
+}
+
+Node list_of(Node item, int least = 0) {
+  Object list{{"type", node("array")}, {"items", std::move(item)}};
+  if (least > 0) list.push_back({"minItems", node(least)});
+  return of(std::move(list));
+}
+
+/// An object whose members have any names.
+Node map_of(Node value) {
+  return of({{"type", node("object")}, {"additionalProperties", std::move(value)}});
+}
+
+/// An object with these keys and no others.
+Object object_of(Object properties, const std::vector<std::string>& required) {
+  properties.push_back({std::string(comment_key), of_type("string")});
+  Object object{{"type", node("object")}, {"properties", of(std::move(properties))}};
+  if (!required.empty()) object.push_back({"required", node(required)});
+  object.push_back({"additionalProperties", {false}});
+  return object;
+}
+
+void add_bounds(double lower, bool lower_open, double upper, Object& number) {
+  if (std::isfinite(lower)) number.push_back({lower_open ? "exclusiveMinimum" : "minimum", node(lower)});
+  if (std::isfinite(upper)) number.push_back({"maximum", node(upper)});
+}
+
+std::string text_with_unit(std::string_view text, std::string_view unit) {
+  std::string all(text);
+  if (!unit.empty() && unit != "-") all.append(" (").append(unit).append(")");
+  return all;
+}
+
+Node number_schema(const Field& field) {
+  Object number{{"type", node("number")}, {"description", node(text_with_unit(field.help, field.unit))}};
+  add_bounds(field.lower, field.lower_open, field.upper, number);
+  if (field.default_value) number.push_back({"default", node(*field.default_value)});
+  return of(std::move(number));
+}
+
+Node reference(std::string_view definition) {
+  return of({{"$ref", node("#/$defs/" + std::string(definition))}});
+}
+
+/// What a repeated entry may have in its place for each value of the index, too.
+Node or_each(Node value) {
+  return of({{"anyOf", {Node::List{std::move(value), reference("each")}}}});
+}
+
+/// A text, or a repeated one.
+Node word() {
+  return of({{"anyOf", {Node::List{of_type("string"), reference("names")}}}});
+}
+
+/// The keys that say where something acts, and that one of them must be there. next: also in the next sector.
+void add_place(Object& properties, bool next = true) {
+  const Node name = next ? reference("dof") : of_type("string");
+  properties.push_back({"at", name});
+  properties.push_back(
+      {"between",
+       of({{"type", node("array")}, {"items", name}, {"minItems", node(2)}, {"maxItems", node(2)}})});
+  properties.push_back({"direction", next ? reference("weights") : map_of(of_type("number"))});
+}
+
+/// One sector of a ring, or all.
+Node cyclic() {
+  const auto whole = [](int lower, int upper, const char* help) {
+    return of({{"type", node("integer")},
+               {"minimum", node(lower)},
+               {"maximum", node(upper)},
+               {"description", node(help)}});
+  };
+  return of(object_of(
+      {{"sectors", whole(least_sectors, largest_sectors, "of the ring")},
+       {"engine_order", whole(-largest_engine_order, largest_engine_order,
+                              "periods around the ring, by which the excitation of each sector is delayed")},
+       {"full", of({{"type", node("boolean")},
+                    {"default", {false}},
+                    {"description", node("all sectors instead of one in the wave of the engine order")}})},
+       {"mistuning",
+        of({{"type", node("object")},
+            {"additionalProperties", of({{"type", node("array")}, {"items", of_type("number")}})},
+            {"description", node("of a full ring: factors of a part's value, or of the stiffness matrix, for "
+                                 "each sector")}})}},
+      {"sectors", "engine_order"}));
+}
+
+Node one_place(bool or_several = false) {
+  Node::List choices;
+  std::vector<const char*> keys{"at", "between", "direction"};
+  if (or_several) keys.push_back("max_of");
+  for (const char* key : keys) choices.push_back(of({{"required", node(std::vector<std::string>{key})}}));
+  return {std::move(choices)};
+}
+
+template <class Words, class Choice>
+Node one_of_words(const Words& words, Choice otherwise) {
+  return of({{"enum", node(texts(words))}, {"default", node(word_of(words, otherwise))}});
+}
+
+/// What the value of a key may be.
+Object schema_of_key(const Key& key) {
+  switch (key.type) {
+    case KeyType::number:
+    case KeyType::whole: {
+      Object number{{"type", node(key.type == KeyType::whole ? "integer" : "number")}};
+      add_bounds(key.lower, key.lower_open, key.upper, number);
+      return number;
+    }
+    case KeyType::frequency:
+      return {{"type", node("number")}, {"exclusiveMinimum", node(0)}};
+    case KeyType::value:
+      return {{"type", node("number")}};
+    case KeyType::window:
+      return {{"type", node("array")},
+              {"items", of({{"type", node("number")}, {"exclusiveMinimum", node(0)}})},
+              {"minItems", node(2)},
+              {"maxItems", node(2)}};
+    case KeyType::word:
+      return {{"enum", node(key.words)}};
+    case KeyType::text:
+    case KeyType::parameter:
+    case KeyType::followed:
+      return {{"type", node("string")}};
+    case KeyType::parameters:
+      return {{"type", node("array")}, {"items", of_type("string")}, {"minItems", node(1)}};
+    case KeyType::other:
+      break;
+  }
+  return std::get<Object>(read_tree(key.schema.empty() ? std::string("{}") : key.schema).value);
+}
+
+/// What repeated entries (repeat.hpp) are made of.
+Node definitions() {
+  const Node count = of({{"type", node("integer")}, {"minimum", node(1)}, {"maximum", node(largest_repeat)}});
+  const Node index = of(object_of({{"count", count},
+                                   {"index", of({{"type", node("string")}, {"default", node("i")}})},
+                                   {"cyclic", of({{"type", node("boolean")}, {"default", {false}}})}},
+                                  {"count"}));
+  return of(
+      {{"repeat", of({{"anyOf", {Node::List{count, index}}},
+                      {"description", node("one for each index from 1 to a count; {i}, {i+1}, {i-1} in "
+                                           "texts are the index and its neighbours")}})},
+       {"each", of(object_of({{"each", of_type("array")}}, {"each"}))},
+       {"dof", of({{"anyOf",
+                    {Node::List{of_type("string"), of(object_of({{"next", of_type("string")}}, {"next"}))}}},
+                   {"description", node("a degree of freedom, or that of the next sector of a ring")}})},
+       {"weights", of({{"type", node("object")},
+                       {"properties", of({{"next", map_of(of_type("number"))}})},
+                       {"additionalProperties", of_type("number")}})},
+       {"names",
+        of(object_of({{"repeat", reference("repeat")}, {"name", of_type("string")}}, {"repeat", "name"}))}});
+}
+
+Node place_object() {
+  Object place;
+  add_place(place);
+  Object object = object_of(std::move(place), {});
+  object.push_back({"oneOf", one_place()});
+  return of(std::move(object));
+}
+
+/// One response, or a list of responses with names.
+Node responses() {
+  Object repeated{{"repeat", reference("repeat")}};
+  add_place(repeated, false);
+  Object one = object_of(std::move(repeated), {});
+  one.push_back({"oneOf", one_place()});
+  const Node places = list_of(of(std::move(one)), 1);
+  const auto response = [&places](bool named) {
+    Object place;
+    if (named) place.insert(place.end(), {{"repeat", reference("repeat")}, {"name", of_type("string")}});
+    add_place(place, false);
+    place.push_back({"max_of", places});
+    place.push_back({"frame", one_of_words(frames, Response{}.frame)});
+    Object object = object_of(std::move(place), {});
+    if (named) object.push_back({"required", node(std::vector<std::string>{"name"})});
+    object.push_back({"oneOf", one_place(true)});
+    return of(std::move(object));
+  };
+  return of({{"oneOf", {Node::List{response(false), list_of(response(true), 1)}}}});
+}
+
+/// A key with its meaning and default.
+Node described_key(const Key& key) {
+  Object value = schema_of_key(key);
+  const std::string unit = key.unit == "frequency"   ? "the scene's unit"
+                           : key.unit == "parameter" ? "the parameter's unit"
+                                                     : key.unit;
+  value.push_back({"description", node(text_with_unit(key.help, unit))});
+  if (!key.otherwise.empty()) value.push_back({"default", read_tree(key.otherwise)});
+  return of(std::move(value));
+}
+
+Node part_of(const PartType& type, bool with_type) {
+  Object properties{{"repeat", reference("repeat")}, {"name", of_type("string")}};
+  std::vector<std::string> required{"name"};
+  if (with_type) {
+    properties.push_back({"type", of({{"const", node(type.name())}})});
+    if (&type != &force_type()) required.emplace_back("type");
+  }
+  const bool one_direction = type.slots().empty() && !type.names_directions();
+  const auto excitations = excitation_types();
+  const bool excites = std::find(excitations.begin(), excitations.end(), &type) != excitations.end();
+  if (one_direction) add_place(properties, !excites);
+  for (const std::string_view slot : type.slots()) {
+    properties.push_back({std::string(slot), place_object()});
+    required.emplace_back(slot);
+  }
+  for (const Key& option : type.options()) {
+    properties.push_back({option.name, or_each(described_key(option))});
+    if (option.required) required.push_back(option.name);
+  }
+  if (excites) {
+    properties.push_back(
+        {"harmonic", of({{"type", node("integer")},
+                         {"minimum", node(0)},
+                         {"maximum", node(largest_order)},
+                         {"default", node(Part{}.harmonic)},
+                         {"description", node("harmonic of the excitation; 0: constant")}})});
+    properties.push_back(
+        {"engine_order",
+         of({{"type", node("integer")},
+             {"description", node("of a repeated excitation: periods around the ring, by which "
+                                  "each is delayed")}})});
+  }
+  for (const Field& field : type.fields({})) {
+    properties.push_back({std::string(field.name), or_each(number_schema(field))});
+    if (!field.default_value && !type.options_bring_fields())  // in its place
+      required.emplace_back(field.name);
+  }
+  const auto dampings = damping_types();
+  const bool of_structure = std::find(dampings.begin(), dampings.end(), &type) != dampings.end();
+  if (with_type && !of_structure)
+    properties.push_back({std::string(wear_coefficient.name), number_schema(wear_coefficient)});
+  Object object = object_of(std::move(properties), required);
+  if (type.names_directions() && !of_structure)
+    object.back().value = place_object();
+  else if (type.options_bring_fields())
+    object.back().value = of_type("number");  // fields that the options bring
+  const bool shaped = std::find(excitations.begin(), excitations.end(), &type) != excitations.end();
+  if (one_direction && !shaped) object.push_back({"oneOf", one_place()});
+  if (&type == &force_type()) {
+    auto places = std::get<Node::List>(one_place().value);
+    places.push_back(of({{"required", node(std::vector<std::string>{"shape"})}}));
+    object.push_back({"anyOf", {std::move(places)}});
+  }
+  return of(std::move(object));
+}
+
+// A part whose value may be given by another key.
+Node or_given_by(Node part, const char* key, Node value) {
+  auto& object = std::get<Object>(part.value);
+  for (Member& member : object) {
+    if (member.key == "properties")
+      std::get<Object>(member.value.value).push_back({key, or_each(std::move(value))});
+    if (member.key == "required") member.value = node(std::vector<std::string>{"name"});
+  }
+  Node::List choices;
+  for (const char* either : {"value", key})
+    choices.push_back(of({{"required", node(std::vector<std::string>{either})}}));
+  object.push_back({"anyOf", {std::move(choices)}});
+  return part;
+}
+
+Node spring() {
+  return or_given_by(
+      part_of(spring_type(), false), "frequency",
+      of({{"type", node("number")},
+          {"exclusiveMinimum", node(0)},
+          {"description", node("natural frequency of the mass there on this spring alone (the scene's "
+                               "unit)")}}));
+}
+
+Node damper() {
+  return or_given_by(part_of(damper_type(), false), "damping_ratio",
+                     of({{"type", node("number")},
+                         {"minimum", node(0)},
+                         {"description", node("of the mass there on the spring there")}}));
+}
+
+// A patch of contacts, whose fields depend on its law.
+Node patch() {
+  Object object = object_of(
+      {{"name", of_type("string")},
+       {"law", of_type("string")},
+       {"file", of({{"type", node("string")}, {"description", node("the path of a CSV file of contacts")}})},
+       {"details", of({{"type", node("boolean")}, {"default", {true}}})},
+       {std::string(wear_coefficient.name), number_schema(wear_coefficient)}},
+      {"name", "law", "file"});
+  object.pop_back();  // other keys are fields and options of the law
+  return of(std::move(object));
+}
+
+Node range() {
+  return of(object_of({{"from", of_type("number")},
+                       {"to", of_type("number")},
+                       {"count", of({{"type", node("integer")}, {"minimum", node(2)}})},
+                       {"spacing", one_of_words(spacings, Spacing::linear)}},
+                      {"from", "to", "count"}));
+}
+
+Node study_of(const StudyType& type) {
+  Object properties{
+      {"name", of({{"type", node("string")}, {"minLength", node(1)}, {"maxLength", node(100)}})},
+      {"kind", of({{"const", node(type.name())}})}};
+  std::vector<std::string> required{"kind"};
+  Object needs;  // keys that stand together or not at all
+  for (const Key& key : type.keys()) {
+    properties.push_back({key.name, described_key(key)});
+    if (key.required) {
+      required.push_back(key.name);
+    } else if (const std::vector<std::string> beside = keys_beside(key.type); !beside.empty()) {
+      needs.push_back({key.name, node(beside)});
+      for (const std::string& each : beside) needs.push_back({each, node(std::vector{key.name})});
+    }
+  }
+  properties.push_back(
+      {"for_each",
+       of({{"oneOf",
+            {Node::List{map_of(of({{"oneOf", {Node::List{list_of(of_type("number"), 1), range()}}}})),
+                        list_of(map_of(of_type("number")), 1)}}}})});
+  Object study = object_of(std::move(properties), required);
+  if (!needs.empty()) study.push_back({"dependentRequired", of(std::move(needs))});
+  study.push_back({"title", node(type.help())});
+  return of(std::move(study));
+}
+
+// Which matrices need not be symmetric.
+Node unsymmetric() {
+  Node word = of({{"enum", node(std::vector<std::string>{"stiffness", "damping"})}});
+  return list_of(std::move(word), 1);
+}
+
+Node copies() {
+  return of({{"type", node("integer")},
+             {"minimum", node(1)},
+             {"maximum", node(largest_copies)},
+             {"default", node(Matrices{}.copies)},
+             {"description", node("of the structure, side by side")}});
+}
+
+Node above_zero() {
+  return of({{"type", node("number")}, {"exclusiveMinimum", node(0)}});
+}
+
+Node matrix_file() {
+  return read_tree(matrix_file_schema(false));
+}
+
+Node rotation() {
+  Object object = std::get<Object>(part_of(rotation_type(), false).value);
+  for (Member& member : object) {
+    if (member.key == "properties")
+      std::erase_if(std::get<Object>(member.value.value),
+                    [](const Member& own) { return own.key == "repeat"; });
+    if (member.key == "required") member.value = node(std::vector<std::string>{"name"});
+    if (member.key == "additionalProperties") member.value = {false};
+  }
+  Node::List choices;
+  for (const char* either : {"speed", "engine_order"})
+    choices.push_back(of({{"required", node(std::vector<std::string>{either})}}));
+  object.push_back({"oneOf", {std::move(choices)}});
+  return of(std::move(object));
+}
+
+Node schema_of(const Catalogue& catalogue) {
+  Object structure{{"cyclic", cyclic()},
+                   {"dofs", list_of(word(), 1)},
+                   {"masses", list_of(part_of(mass_type(), false))},
+                   {"springs", list_of(spring())},
+                   {"dampers", list_of(damper())}};
+  structure.push_back({"matrices", of(object_of({{"mass", matrix_file()},
+                                                 {"stiffness", matrix_file()},
+                                                 {"damping", matrix_file()},
+                                                 {"stiffness_speed_squared", matrix_file()},
+                                                 {"gyroscopic", matrix_file()},
+                                                 {"circulatory", matrix_file()},
+                                                 {"unsymmetric", unsymmetric()},
+                                                 {"highest_frequency", of_type("number")},
+                                                 {"faces", of_type("string")},
+                                                 {"copies", copies()},
+                                                 {"stiffness_factors", list_of(above_zero())}},
+                                                {"mass", "stiffness"}))});
+  structure.push_back({"names", of_type("string")});
+  structure.push_back({"rotation", rotation()});
+  for (const bool bends : {true, false}) {
+    Object bar{{"elements", of_type("integer")}, {"highest_frequency", of_type("number")}};
+    for (const char* key : {"length", "young", "density", "area", "width", "height"})
+      bar.push_back({key, of_type("number")});
+    if (bends) bar.push_back({"inertia", of_type("number")});
+    bar.push_back({"ends", list_of(one_of_words(bar_ends, BarEnd::clamped))});
+    bar.push_back({"points", map_of(of_type("number"))});
+    structure.push_back({bends ? "beam" : "rod", of(object_of(std::move(bar), {"elements", "length", "young",
+                                                                               "density", "points"}))});
+  }
+  Node::List dampings;
+  for (const PartType* type : damping_types()) dampings.push_back(part_of(*type, true));
+  structure.push_back({"damping", list_of(of({{"oneOf", {std::move(dampings)}}}))});
+  Node::List elements, excitations, studies;
+  for (const PartType* type : excitation_types()) excitations.push_back(part_of(*type, true));
+  for (const PartType* type : catalogue.elements) elements.push_back(part_of(*type, true));
+  for (const StudyType* type : catalogue.studies) studies.push_back(study_of(*type));
+  Object samples{{"type", node("integer")}, {"default", node(Harmonics{}.samples)}};
+  add_bounds(1, false, largest_samples, samples);
+  Object order{{"type", node("integer")}};
+  add_bounds(1, false, largest_order, order);
+  Object period{{"type", node("integer")}, {"default", node(Harmonics{}.period)}};
+  add_bounds(1, false, largest_period, period);
+  Object accuracy{{"type", node("number")}, {"default", node(default_accuracy)}};
+  add_bounds(finest_accuracy, false, coarsest_accuracy, accuracy);
+  Object root = object_of(
+      {{"$schema", of_type("string")},
+       {"format", of({{"const", node(format_name)}})},
+       {"title", of_type("string")},
+       {"frequency_unit", one_of_words(frequency_units, Scene{}.frequency_unit)},
+       {"structure", of(object_of(std::move(structure), {}))},
+       {"elements", list_of(of({{"oneOf", {std::move(elements)}}}))},
+       {"patches", list_of(patch())},
+       {"excitation", list_of(of({{"oneOf", {std::move(excitations)}}}), 1)},
+       {"ties", map_of(list_of(word(), 1))},
+       {"labels", map_of(of_type("string"))},
+       {"harmonics", of(object_of({{"order", of(std::move(order))},
+                                   {"accuracy", of(std::move(accuracy))},
+                                   {"period", of(std::move(period))},
+                                   {"friction", one_of_words(friction_methods, Harmonics{}.friction)},
+                                   {"samples", of(std::move(samples))}},
+                                  {}))},
+       {"response", responses()},
+       {"studies", list_of(of({{"oneOf", {std::move(studies)}}}))}},
+      {"format", "structure", "excitation"});
+  Object schema{{"$schema", node("https://json-schema.org/draft/2020-12/schema")},
+                {"title", node("Arcslip scene")}};
+  schema.insert(schema.end(), root.begin(), root.end());
+  schema.push_back({"$defs", definitions()});
+  return of(std::move(schema));
+}
+
+}  // namespace
+}  // namespace file
+
+std::string json_schema(const Catalogue& catalogue) {
+  return file::print_tree(file::schema_of(catalogue));
+}
+
+}  // namespace arcslip::scene

@@ -1,0 +1,285 @@
+// A scene as the tree of its file, with every default.
+#include <arcslip/scene/combinations.hpp>
+#include <arcslip/scene/files/manifest.hpp>
+#include <arcslip/scene/files/matrix_file.hpp>
+#include <arcslip/scene/keys/enum_words.hpp>
+#include <arcslip/scene/keys/json_tree.hpp>
+#include <arcslip/scene/keys/write_values.hpp>
+#include <arcslip/scene/part_type.hpp>
+#include <arcslip/scene/scene.hpp>
+#include <arcslip/scene/study_type.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace arcslip::scene {
+namespace file {
+
+Node node(std::string_view text) {
+  return {std::string(text)};
+}
+
+Node node(double value) {
+  return {value};
+}
+
+Node node(int value) {
+  return {static_cast<double>(value)};
+}
+
+Node node(const std::vector<double>& values) {
+  Node::List list;
+  for (const double value : values) list.push_back(node(value));
+  return {std::move(list)};
+}
+
+Node node(const std::vector<std::string>& texts) {
+  Node::List list;
+  for (const std::string& text : texts) list.push_back(node(text));
+  return {std::move(list)};
+}
+
+Member place_member(const Direction& direction, const std::vector<std::string>& dofs) {
+  const auto name = [&](const Term& term) { return dofs[static_cast<std::size_t>(term.dof)]; };
+  const auto place = [&](const Term& term) {
+    Node of = node(name(term));
+    return term.next ? Node{Node::Object{{std::string(next_key), std::move(of)}}} : of;
+  };
+  if (direction.size() == 1 && direction[0].weight == 1) return {"at", place(direction[0])};
+  if (direction.size() == 2 && direction[0].weight == 1 && direction[1].weight == -1)
+    return {"between", {Node::List{place(direction[0]), place(direction[1])}}};
+  Node::Object weights, next;
+  for (const Term& term : direction) (term.next ? next : weights).push_back({name(term), node(term.weight)});
+  if (!next.empty()) weights.push_back({std::string(next_key), {std::move(next)}});
+  return {"direction", {std::move(weights)}};
+}
+
+std::string json_text(const Node& value) {
+  std::string text = print_tree(value);
+  text.erase(text.find_last_not_of('\n') + 1);
+  return text;
+}
+
+namespace {
+
+// Sets what a JSON pointer names; objects that are not there yet are made.
+void set_at_pointer(Node::Object& root, std::string_view pointer, Node value) {
+  Node holder{std::move(root)};
+  Node* at = &holder;
+  while (!pointer.empty()) {
+    const std::size_t end = std::min(pointer.find('/', 1), pointer.size());
+    const std::string key(pointer.substr(1, end - 1));
+    pointer.remove_prefix(end);
+    if (auto* list = std::get_if<Node::List>(&at->value)) {
+      at = &(*list)[std::stoul(key)];
+      continue;
+    }
+    if (!std::holds_alternative<Node::Object>(at->value)) at->value = Node::Object();
+    auto& object = std::get<Node::Object>(at->value);
+    auto own = std::find_if(object.begin(), object.end(), [&](const Member& m) { return m.key == key; });
+    if (own == object.end()) own = object.insert(own, {key, {}});
+    at = &own->value;
+  }
+  *at = std::move(value);
+  root = std::move(std::get<Node::Object>(holder.value));
+}
+
+Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_type = false) {
+  const std::vector<std::string>& dofs = scene.dofs;
+  Node::List list;
+  for (const Part& part : parts) {
+    Node::Object object = {{"name", node(part.name)}};
+    if (with_type) object.push_back({"type", node(part.type->name())});
+    const auto slots = part.type->slots_with(part.options);
+    if (slots.empty() && !part.type->names_directions() && !part.directions.front().empty())
+      object.push_back(place_member(part.directions.front(), dofs));
+    for (std::size_t i = 0; i < slots.size(); ++i)
+      object.push_back({std::string(slots[i]), {Node::Object{place_member(part.directions[i], dofs)}}});
+    part.type->write_options(part.options, scene, object);
+    if (part.wear_coefficient != 0) object.push_back({"wear_coefficient", node(part.wear_coefficient)});
+    if (&parts == &scene.excitation) object.push_back({"harmonic", node(part.harmonic)});
+    const std::span<const Field> fields = part.fields();
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      if (fields[i].place.empty())
+        object.push_back({std::string(fields[i].name), node(part.values[i])});
+      else
+        set_at_pointer(object, fields[i].place, node(part.values[i]));
+    list.push_back({std::move(object)});
+  }
+  return {std::move(list)};
+}
+
+void add_bar(const Bar& bar, double highest_frequency, Node::Object& structure) {
+  Node::Object keys{{"elements", node(bar.elements)},
+                    {"length", node(bar.length)},
+                    {"young", node(bar.young)},
+                    {"density", node(bar.density)},
+                    {"area", node(bar.area)}};
+  if (bar.bends) keys.push_back({"inertia", node(bar.inertia)});
+  Node::List ends;
+  for (const BarEnd end : bar.ends) ends.push_back(node(word_of(bar_ends, end)));
+  keys.push_back({"ends", {std::move(ends)}});
+  Node::Object points;
+  for (const auto& [name, place] : bar.points) points.push_back({name, node(place)});
+  keys.push_back({"points", {std::move(points)}});
+  if (highest_frequency > 0) keys.push_back({"highest_frequency", node(highest_frequency)});
+  structure.push_back({bar.bends ? "beam" : "rod", {std::move(keys)}});
+}
+
+void add_matrices(const Matrices& matrices, Node::Object& structure) {
+  if (matrices.bar) return add_bar(*matrices.bar, matrices.highest_frequency, structure);
+  Node::Object files{{"mass", matrix_file_node(matrices.mass)},
+                     {"stiffness", matrix_file_node(matrices.stiffness)}};
+  // Without its path, as for the hash, a file still has a variable.
+  if (matrices.has_damping() || !matrices.damping.variable.empty())
+    files.push_back({"damping", matrix_file_node(matrices.damping)});
+  if (matrices.stiffness_speed_squared.file.text)
+    files.push_back({"stiffness_speed_squared", matrix_file_node(matrices.stiffness_speed_squared)});
+  if (matrices.gyroscopic.file.text) files.push_back({"gyroscopic", matrix_file_node(matrices.gyroscopic)});
+  if (matrices.circulatory.file.text)
+    files.push_back({"circulatory", matrix_file_node(matrices.circulatory)});
+  std::vector<std::string> unsymmetric;
+  if (matrices.unsymmetric_stiffness) unsymmetric.emplace_back("stiffness");
+  if (matrices.unsymmetric_damping) unsymmetric.emplace_back("damping");
+  if (!unsymmetric.empty()) files.push_back({"unsymmetric", node(unsymmetric)});
+  if (matrices.highest_frequency > 0)
+    files.push_back({"highest_frequency", node(matrices.highest_frequency)});
+  if (matrices.faces_file.text) files.push_back({"faces", node(matrices.faces_file.path)});
+  if (matrices.copies > 1) files.push_back({"copies", node(matrices.copies)});
+  if (!matrices.stiffness_factors.empty())
+    files.push_back({"stiffness_factors", node(matrices.stiffness_factors)});
+  structure.push_back({"matrices", {std::move(files)}});
+  structure.push_back({"names", node(matrices.names.path)});
+}
+
+Node ties_node(const std::vector<Tie>& ties) {
+  Node::Object object;
+  for (const Tie& tie : ties) object.push_back({tie.name, node(tie.members)});
+  return {std::move(object)};
+}
+
+Node labels_node(const Scene& scene) {
+  Node::Object object;
+  for (const auto& [axis, text] : scene.labels) object.push_back({axis, node(text)});
+  return {std::move(object)};
+}
+
+Node harmonics_node(const Harmonics& harmonics) {
+  Node::Object object;
+  if (harmonics.accuracy > 0) object.push_back({"accuracy", node(harmonics.accuracy)});
+  object.push_back({"order", node(harmonics.order)});
+  object.push_back({"period", node(harmonics.period)});
+  object.push_back({"friction", node(word_of(friction_methods, harmonics.friction))});
+  object.push_back({"samples", node(harmonics.samples)});
+  return {std::move(object)};
+}
+
+Node for_each_node(const Study& study) {
+  Node::Object lists;
+  Node::List rows;
+  for (const auto& [parameter, values] : study.for_each) lists.push_back({parameter, node(values)});
+  const Combinations all(study);
+  for (std::size_t k = 0; study.in_rows && k < all.size(); ++k) {
+    Node::Object row;
+    for (const auto& [parameter, value] : all[k]) row.push_back({parameter, node(value)});
+    rows.push_back({std::move(row)});
+  }
+  return study.in_rows ? Node{std::move(rows)} : Node{std::move(lists)};
+}
+
+Node study_node(const Study& study, const Scene& scene) {
+  Node::Object object = {{"name", node(study.name)}, {"kind", node(study.type->name())}};
+  study.type->write(study.settings, scene, object);
+  object.push_back({"for_each", for_each_node(study)});
+  return {std::move(object)};
+}
+
+Node responses_node(const Scene& scene) {
+  Node::List list;
+  for (const Response& response : scene.responses) {
+    Node::Object object;
+    if (!response.name.empty()) object.push_back({"name", node(response.name)});
+    if (response.others.empty()) {
+      object.push_back(place_member(response.direction, scene.dofs));
+    } else {
+      Node::List places{Node{Node::Object{place_member(response.direction, scene.dofs)}}};
+      for (const Direction& other : response.others)
+        places.push_back({Node::Object{place_member(other, scene.dofs)}});
+      object.push_back({"max_of", {std::move(places)}});
+    }
+    object.push_back({"frame", node(word_of(frames, response.frame))});
+    list.push_back({std::move(object)});
+  }
+  const bool one = list.size() == 1 && scene.responses.front().name.empty();
+  return one ? std::move(list.front()) : Node{std::move(list)};
+}
+
+Node studies_node(const Scene& scene) {
+  Node::List list;
+  for (const Study& study : scene.studies) list.push_back(study_node(study, scene));
+  return {std::move(list)};
+}
+
+}  // namespace
+
+Node tree(const Scene& scene) {
+  Node::Object structure;
+  if (scene.cyclic)
+    structure.push_back({"cyclic",
+                         {Node::Object{{"sectors", node(scene.cyclic->sectors)},
+                                       {"engine_order", node(scene.cyclic->engine_order)}}}});
+  if (scene.matrices) add_matrices(*scene.matrices, structure);
+  const auto named = static_cast<std::ptrdiff_t>(scene.matrices ? scene.matrices->named() : 0);
+  const std::vector<std::string> dofs(scene.dofs.begin() + named, scene.dofs.end());
+  if (named == 0 || !dofs.empty()) structure.push_back({"dofs", node(dofs)});
+  structure.insert(structure.end(), {{"masses", parts_node(scene.masses, scene)},
+                                     {"springs", parts_node(scene.springs, scene)},
+                                     {"dampers", parts_node(scene.dampers, scene)}});
+  if (!scene.damping.empty()) structure.push_back({"damping", parts_node(scene.damping, scene, true)});
+  if (!scene.rotation.empty()) {
+    auto rotation = std::get<Node::List>(parts_node(scene.rotation, scene).value);
+    structure.push_back({"rotation", std::move(rotation.front())});
+  }
+  Node::Object all{{"format", node(format_name)},
+                   {"title", node(scene.title)},
+                   {"frequency_unit", node(word_of(frequency_units, scene.frequency_unit))},
+                   {"structure", {std::move(structure)}},
+                   {"elements", parts_node(scene.elements, scene, true)}};
+  if (!scene.patches.empty()) all.push_back({"patches", parts_node(scene.patches, scene)});
+  all.push_back({"excitation", parts_node(scene.excitation, scene, true)});
+  all.push_back({"ties", ties_node(scene.ties)});
+  if (!scene.labels.empty()) all.push_back({"labels", labels_node(scene)});
+  all.push_back({"harmonics", harmonics_node(scene.harmonics)});
+  all.push_back({"response", responses_node(scene)});
+  all.push_back({"studies", studies_node(scene)});
+  return {std::move(all)};
+}
+
+}  // namespace file
+
+std::string write(const Scene& scene) {
+  return file::print_tree(file::tree(scene));
+}
+
+std::string hash(const Scene& scene) {
+  ContentHash hash;
+  Scene copy = scene;
+  std::vector<std::shared_ptr<const std::string>> texts;
+  for (NamedFile* file : files(copy)) {  // what they hold, wherever they are
+    texts.push_back(file->text);
+    file->path.clear();
+  }
+  hash.add(write(copy));
+  for (const auto& text : texts) {
+    hash.add(std::to_string(text ? text->size() : 0) + ':');
+    if (text) hash.add(*text);
+  }
+  return hash.text();
+}
+
+std::string_view unit_name(FrequencyUnit unit) {
+  return file::word_of(file::frequency_units, unit);
+}
+
+}  // namespace arcslip::scene

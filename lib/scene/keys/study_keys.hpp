@@ -1,0 +1,284 @@
+#pragma once
+// The keys of a kind of study: name, allowed values and target of each in one place, from which reader,
+// writer, command line options and documentation are derived.
+//
+//   struct Window { std::string over; double from = 0, to = 0, lower = 0, upper = 0; };
+//   KeysOf<Window> keys;
+//   keys.add(range_over(&Window::over, &Window::from, &Window::to, "the parameter to vary"));
+//   keys.add(window(&Window::lower, &Window::upper, "the search window"));
+
+#include <arcslip/scene/keys/enum_words.hpp>
+#include <arcslip/scene/keys/read_parts.hpp>
+#include <arcslip/scene/keys/read_values.hpp>
+#include <arcslip/scene/keys/study_parameters.hpp>
+#include <arcslip/scene/keys/write_values.hpp>
+#include <arcslip/scene/study_type.hpp>
+
+#include <functional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace arcslip::scene::file {
+
+/// The object of a study while it is read, with the context of its values.
+struct Reading {
+  const Keys& keys;
+  const Field& frequency;  // in the scene's unit
+  const Parameters& parameters;
+  const Dofs& dofs;
+  Faults& faults;
+  const FileSource& source;
+};
+
+/// Some keys of a study that are read and written together.
+template <class Settings>
+struct KeyGroup {
+  std::vector<Key> keys;
+  std::function<void(const Reading&, Settings&)> read;
+  std::function<void(const Settings&, const Scene&, Node::Object&)> write;
+  std::function<void(const Settings&, std::vector<Taken>&)> taken{};  // parameters with values in these keys
+  std::function<void(std::string_view, Settings&)> drop{};            // a parameter from lists of values
+  std::function<void(Settings&, std::vector<NamedFile*>&)> files{};   // that are named here
+};
+
+/// A part of the settings as a group of its own: settings within settings, or a single value.
+template <class S, class Part>
+KeyGroup<S> within(Part S::*part, KeyGroup<Part> group) {
+  KeyGroup<S> all{
+      std::move(group.keys),
+      [part, read = std::move(group.read)](const Reading& reading, S& s) { read(reading, s.*part); },
+      [part, write = std::move(group.write)](const S& s, const Scene& scene, Node::Object& to) {
+        write(s.*part, scene, to);
+      }};
+  if (group.taken)
+    all.taken = [part, of = std::move(group.taken)](const S& s, std::vector<Taken>& taken) {
+      of(s.*part, taken);
+    };
+  if (group.drop)
+    all.drop = [part, of = std::move(group.drop)](std::string_view parameter, S& s) {
+      of(parameter, s.*part);
+    };
+  if (group.files)
+    all.files = [part, of = std::move(group.files)](S& s, std::vector<NamedFile*>& files) {
+      of(s.*part, files);
+    };
+  return all;
+}
+
+/// Two values as a group of a pair.
+template <class S>
+KeyGroup<S> within(double S::*first, double S::*second, KeyGroup<std::pair<double, double>> group) {
+  return {std::move(group.keys),
+          [=, read = std::move(group.read)](const Reading& reading, S& s) {
+            std::pair<double, double> both{s.*first, s.*second};
+            read(reading, both);
+            std::tie(s.*first, s.*second) = both;
+          },
+          [=, write = std::move(group.write)](const S& s, const Scene& scene, Node::Object& to) {
+            write({s.*first, s.*second}, scene, to);
+          }};
+}
+
+// Standard groups of keys, defined by the targets of their values: of a value alone, which is compiled once,
+// and of members of settings. A missing or invalid value leaves its target unchanged.
+
+/// "from" and "to" of a field, from < to.
+std::pair<double, double> read_range(const Reading& reading, const Field& field);
+
+/// "from" and "to" in the unit of the scene's frequencies, from < to.
+KeyGroup<std::pair<double, double>> frequency_range();
+template <class S>
+KeyGroup<S> frequency_range(double S::*from, double S::*to) {
+  return within(from, to, frequency_range());
+}
+
+/// "over", a parameter, and its range "from" and "to".
+struct RangeOver {
+  std::string over;
+  double from = 0, to = 0;
+};
+KeyGroup<RangeOver> range_over();
+template <class S>
+KeyGroup<S> range_over(std::string S::*over, double S::*from, double S::*to) {
+  KeyGroup<RangeOver> range = range_over();
+  return {std::move(range.keys),
+          [=, read = std::move(range.read)](const Reading& reading, S& s) {
+            RangeOver all;
+            read(reading, all);
+            std::tie(s.*over, s.*from, s.*to) = std::tie(all.over, all.from, all.to);
+          },
+          [=, write = std::move(range.write)](const S& s, const Scene& scene, Node::Object& to_file) {
+            write({s.*over, s.*from, s.*to}, scene, to_file);
+          },
+          [=, taken = std::move(range.taken)](const S& s, std::vector<Taken>& all) {
+            taken({s.*over, s.*from, s.*to}, all);
+          }};
+}
+
+/// "frequency": a window [lower, upper] of frequencies.
+KeyGroup<std::pair<double, double>> window();
+template <class S>
+KeyGroup<S> window(double S::*lower, double S::*upper) {
+  return within(lower, upper, window());
+}
+
+/// A window of another field, whose bounds are open at 0.
+KeyGroup<std::pair<double, double>> window_of(const Field& field, std::string help);
+template <class S>
+KeyGroup<S> window_of(double S::*lower, double S::*upper, const Field& field, std::string help) {
+  return within(lower, upper, window_of(field, std::move(help)));
+}
+
+/// "frequency": a single one.
+KeyGroup<double> one_frequency(std::string help);
+template <class S>
+KeyGroup<S> one_frequency(double S::*frequency, std::string help) {
+  return within(frequency, one_frequency(std::move(help)));
+}
+
+/// A number with a default. field: its name, unit and bounds.
+KeyGroup<double> number(const Field& field, double otherwise, std::string help);
+template <class S>
+KeyGroup<S> number(double S::*value, const Field& field, std::string help) {
+  return within(value, number(field, S{}.*value, std::move(help)));
+}
+
+/// A whole number with a default.
+KeyGroup<int> whole(const std::string& name, int otherwise, int lower, int upper, std::string help);
+template <class S>
+KeyGroup<S> whole(const std::string& name, int S::*value, int lower, int upper, std::string help) {
+  return within(value, whole(name, S{}.*value, lower, upper, std::move(help)));
+}
+
+/// An optional text. what: "a string, the name of an NLopt algorithm".
+KeyGroup<std::string> text(const std::string& name, const std::string& what, std::string otherwise,
+                           std::string help);
+template <class S>
+KeyGroup<S> text(const std::string& name, std::string S::*value, const std::string& what,
+                 std::string otherwise, std::string help) {
+  return within(value, text(name, what, std::move(otherwise), std::move(help)));
+}
+
+/// The text of a file, of at most so many bytes.
+std::optional<NamedFile> read_file_of(const Location& place, const std::string& what, const Reading& reading,
+                                      std::size_t largest = largest_size);
+
+/// The path of a file, which is read with the scene. what: "a string, the path of a table of q and f".
+KeyGroup<NamedFile> named_file(const std::string& name, const std::string& what, std::string help);
+template <class S>
+KeyGroup<S> named_file(const std::string& name, NamedFile S::*value, const std::string& what,
+                       std::string help) {
+  return within(value, named_file(name, what, std::move(help)));
+}
+
+/// One of a few words with a default.
+Key word_key(const std::string& name, std::vector<std::string> words, std::string_view otherwise,
+             std::string help);
+template <class S, class Choice, class Words>
+KeyGroup<S> word(const std::string& name, Choice S::*value, const Words& words, std::string help) {
+  return {{word_key(name, texts(words), word_of(words, S{}.*value), std::move(help))},
+          [=](const Reading& reading, S& s) {
+            s.*value = read_choice(reading.keys.find(name), words, s.*value, reading.faults);
+          },
+          [=](const S& s, const Scene&, Node::Object& to_file) {
+            to_file.push_back({name, node(word_of(words, s.*value))});
+          }};
+}
+
+/// True or false, with a default.
+KeyGroup<bool> flag(const std::string& name, bool otherwise, std::string help);
+template <class S>
+KeyGroup<S> flag(const std::string& name, bool S::*value, std::string help) {
+  return within(value, flag(name, S{}.*value, std::move(help)));
+}
+
+template <class S>
+class KeysOf {
+ public:
+  void add(KeyGroup<S> group) { groups_.push_back(std::move(group)); }
+  /// A check of several values together, called when all are read.
+  void check(std::function<void(const Reading&, S&)> check) { check_ = std::move(check); }
+
+  std::vector<Key> keys() const {
+    std::vector<Key> all;
+    for (const auto& group : groups_) all.insert(all.end(), group.keys.begin(), group.keys.end());
+    return all;
+  }
+  S read(const Reading& from) const {
+    S settings;
+    for (const auto& group : groups_) group.read(from, settings);
+    if (check_) check_(from, settings);
+    return settings;
+  }
+  void write(const S& settings, const Scene& scene, Node::Object& to) const {
+    for (const auto& group : groups_) group.write(settings, scene, to);
+  }
+  std::vector<Taken> taken(const S& settings) const {
+    std::vector<Taken> all;
+    for (const auto& group : groups_)
+      if (group.taken) group.taken(settings, all);
+    return all;
+  }
+  void drop(std::string_view parameter, S& settings) const {
+    for (const auto& group : groups_)
+      if (group.drop) group.drop(parameter, settings);
+  }
+
+  std::vector<NamedFile*> files(S& settings) const {
+    std::vector<NamedFile*> all;
+    for (const auto& group : groups_)
+      if (group.files) group.files(settings, all);
+    return all;
+  }
+
+ private:
+  std::vector<KeyGroup<S>> groups_;
+  std::function<void(const Reading&, S&)> check_;
+};
+
+/// The part of a PartType that its options decide. Base: PartType, or what derives from it.
+template <class S, class Base>
+class KeyedPart : public Base {
+ public:
+  explicit KeyedPart(KeysOf<S> options) : options_(std::move(options)) {}
+  std::vector<Key> options() const override { return options_.keys(); }
+  Settings read_options(const Reading& from) const override { return Settings::of(options_.read(from)); }
+  void write_options(const Settings& options, const Scene& scene, Node::Object& to) const override {
+    options_.write(options.empty() ? S{} : options.as<S>(), scene, to);
+  }
+  std::vector<NamedFile*> files(Settings& options) const override {
+    return options.empty() ? std::vector<NamedFile*>() : options_.files(options.as<S>());
+  }
+
+ private:
+  KeysOf<S> options_;
+};
+
+/// The part of a StudyType that its keys decide.
+template <class S>
+class KeyedStudy : public StudyType {
+ public:
+  explicit KeyedStudy(KeysOf<S> keys) : keys_(std::move(keys)) {}
+  std::vector<Key> keys() const override { return keys_.keys(); }
+  Settings defaults() const override { return Settings::of(S{}); }
+  Settings read(const Reading& from) const override { return Settings::of(keys_.read(from)); }
+  void write(const Settings& settings, const Scene& scene, Node::Object& to) const override {
+    keys_.write(settings.empty() ? S{} : settings.as<S>(), scene, to);
+  }
+  std::vector<NamedFile*> files(Settings& settings) const override {
+    return settings.empty() ? std::vector<NamedFile*>() : keys_.files(settings.as<S>());
+  }
+  std::vector<Taken> taken(const Settings& settings) const override {
+    return keys_.taken(settings.empty() ? S{} : settings.as<S>());
+  }
+  void drop(std::string_view parameter, Settings& settings) const override {
+    if (!settings.empty()) keys_.drop(parameter, settings.as<S>());
+  }
+
+ private:
+  KeysOf<S> keys_;
+};
+
+}  // namespace arcslip::scene::file
