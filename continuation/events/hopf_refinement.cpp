@@ -19,12 +19,12 @@ using ComplexVector = Eigen::VectorXcd;
 
 constexpr int refining_steps = 8;
 constexpr double still_shrinking = 0.5;         // of |Re mu|, from step to step: more is rounding
-constexpr double on_axis = 1e-9;                // |Re mu|, relative to omega
-constexpr double farthest = 1e-3;               // from the first place, relative to 1 + |u|, and of omega
-constexpr double separate = 1e-10;              // w^H v, |v| = |w| = 1: below, the pair is not separate
+constexpr double refined_enough = 1e-9;         // |Re mu|, relative to omega
+constexpr double farthest_refined = 1e-3;       // from the first place, relative to 1 + |u|, and of omega
+constexpr double least_overlap = 1e-10;         // w^H v, |v| = |w| = 1: below, the pair is not separate
 constexpr double longest_difference = 1. / 64;  // relative to u, or to its scales
-constexpr int halvings = 10;                    // of it
-constexpr double getting_worse = 4;             // of the error of an extrapolation, as rounding takes over
+constexpr int difference_halvings = 10;         // of it
+constexpr double getting_worse = 4;             // of an extrapolation's error, as rounding takes over
 
 // w . d/dh F(u + h d) by central differences, extrapolated to h = 0 (Ridders, Adv. Eng. Softw. 4, 1982): the
 // value of the least estimated error.
@@ -34,11 +34,11 @@ class ExtrapolatedDifference {
       : at_(at), u_(u), p_(p), F_(u.size()) {}
 
   std::optional<Complex> operator()(const ComplexVector& w, const Vector& d, std::uint64_t piece) {
-    std::array<Complex, halvings> row{}, before{};
+    std::array<Complex, difference_halvings> row{}, before{};
     Complex best = 0;
     double error = std::numeric_limits<double>::infinity();
     int columns = 0;
-    for (int k = 0; k < halvings; ++k) {
+    for (int k = 0; k < difference_halvings; ++k) {
       const double h = std::ldexp(longest_difference, -k);
       if (!difference(d, h, piece)) {
         columns = 0;
@@ -60,7 +60,7 @@ class ExtrapolatedDifference {
       }
       if (columns > 1 && least > getting_worse * error) break;
       before = row;
-      columns = std::min(columns + 1, halvings - 1);
+      columns = std::min(columns + 1, difference_halvings - 1);
     }
     return std::isfinite(error) ? std::optional(best) : std::nullopt;
   }
@@ -126,7 +126,7 @@ class HopfRefinement {
       frequency_ = mu_.imag() + ds * mu_rate_.imag();
       if (!near(first, given)) return {};
     }
-    if (!(least <= on_axis * given)) return {};
+    if (!(least <= refined_enough * given)) return {};
     x_ = best;
     if (!evaluate() || !near(first, given)) return {};
     return RefinedHopf{x_, mu_.imag(), right_};
@@ -136,7 +136,8 @@ class HopfRefinement {
   bool near(const Vector& first, double given) const {
     const Vector change = (x_ - first).head(n_).cwiseQuotient(scales_);
     const double size = 1 + first.head(n_).cwiseQuotient(scales_).norm();
-    return change.norm() <= farthest * size && std::abs(frequency_ - given) <= farthest * given;
+    return change.norm() <= farthest_refined * size &&
+           std::abs(frequency_ - given) <= farthest_refined * given;
   }
 
   bool move_to(const Vector& x, Needs needs) {
@@ -178,7 +179,7 @@ class HopfRefinement {
     right_ = D_.cast<Complex>().cwiseProduct(c_);
     left_ = b_.cwiseQuotient(D_.cast<Complex>());
     overlap_ = b_.dot(c_);
-    return std::abs(overlap_) > separate;
+    return std::abs(overlap_) > least_overlap;
   }
 
   // w^H J v: by J, or by differences where J itself consists of them.

@@ -13,7 +13,7 @@ using namespace problems;
 
 namespace {
 
-double tolerance(bool exact) {
+double promised(bool exact) {
   return exact ? 1e-12 : 1e-8;
 }
 
@@ -67,7 +67,7 @@ TEST_CASE("the Hopf points of Jansen and Rit's columns are those of 40 digits") 
       CHECK(branch.warnings.empty());
       REQUIRE(branch.events.size() == 3);
       for (std::size_t k = 0; k < 3; ++k)
-        CHECK(std::abs(branch.events[k].point.parameter / exact_points[k] - 1) < tolerance(exact));
+        CHECK(std::abs(branch.events[k].point.parameter / exact_points[k] - 1) < promised(exact));
     }
 }
 
@@ -79,8 +79,8 @@ TEST_CASE("the Brusselator's Hopf points B = 1 + A^2, omega = A are as accurate 
                                   window(0.5, 2 + 2 * A * A), hopf_monitors(*problem));
       CAPTURE(exact, A, branch.stop.message);
       REQUIRE(branch.events.size() == 1);
-      CHECK(std::abs(branch.events[0].point.parameter / (1 + A * A) - 1) < tolerance(exact));
-      CHECK(std::abs(std::get<Hopf>(branch.events[0].data).frequency / A - 1) < tolerance(exact));
+      CHECK(std::abs(branch.events[0].point.parameter / (1 + A * A) - 1) < promised(exact));
+      CHECK(std::abs(std::get<Hopf>(branch.events[0].data).frequency / A - 1) < promised(exact));
     }
 }
 
@@ -93,9 +93,9 @@ TEST_CASE("the Hopf points of the Lorenz equations are as accurate as they are s
                                   hopf_monitors(*problem));
       CAPTURE(exact, s, branch.stop.message);
       REQUIRE(branch.events.size() == 1);
-      CHECK(std::abs(branch.events[0].point.parameter / r - 1) < tolerance(exact));
+      CHECK(std::abs(branch.events[0].point.parameter / r - 1) < promised(exact));
       CHECK(std::abs(std::get<Hopf>(branch.events[0].data).frequency / std::sqrt(b * (s + r)) - 1) <
-            tolerance(exact));
+            promised(exact));
     }
 }
 
@@ -122,9 +122,9 @@ TEST_CASE("unknowns of sizes from 1e-6 to 1e6 have the same Hopf point, with its
       const Branch branch = trace(problem, start, window(0.5, 10), hopf_monitors(*problem));
       CAPTURE(exact, s, branch.stop.message);
       REQUIRE(branch.events.size() == 1);
-      CHECK(std::abs(branch.events[0].point.parameter / B - 1) < tolerance(exact));
+      CHECK(std::abs(branch.events[0].point.parameter / B - 1) < promised(exact));
       const auto& hopf = std::get<Hopf>(branch.events[0].data);
-      CHECK(std::abs(hopf.frequency / A - 1) < tolerance(exact));
+      CHECK(std::abs(hopf.frequency / A - 1) < promised(exact));
       const Matrix J{{B - 1, s * s * A * A}, {-B / (s * s), -A * A}};
       const Vector scales{{s, 1 / s}};
       CHECK((J * hopf.real + A * hopf.imaginary).cwiseQuotient(scales).norm() < 1e-7);

@@ -15,11 +15,11 @@ using namespace problems;
 
 namespace {
 
-constexpr int over_lambda = 0, over_eps = 1;
+constexpr int by_lambda = 0, by_eps = 1;
 
 // The unfolded pitchfork lambda u - u^3 + eps = 0, with a second unknown 2 v = u or none. Its folds are u =
 // s, lambda = 3 s^2, eps = -2 s^3.
-std::shared_ptr<const Problem> pitchfork(bool second) {
+std::shared_ptr<const Problem> unfolded_pitchfork(bool second) {
   Functions f;
   f.size = second ? 2 : 1;
   f.parameters = {{"lambda", ""}, {"eps", ""}};
@@ -34,7 +34,7 @@ std::shared_ptr<const Problem> pitchfork(bool second) {
   };
   f.derivative = [](In u, In, int k, Out dF) {
     dF.setZero();
-    dF[0] = k == over_lambda ? u[0] : 1;
+    dF[0] = k == by_lambda ? u[0] : 1;
   };
   return from_functions(std::move(f));
 }
@@ -79,16 +79,16 @@ constexpr double bogdanov_takens_of_lorenz84 = 0.02094016968;  // |T|, where cur
 
 TEST_CASE("the folds of an unfolded pitchfork pass one cusp, and no Bogdanov-Takens point, along either") {
   for (const bool second : {false, true})
-    for (const int along : {over_lambda, over_eps})
+    for (const int along : {by_lambda, by_eps})
       for (const double s : {-0.5, -0.6173}) {
         Vector x(second ? 3 : 2);
         x[0] = s;
         if (second) x[1] = s / 2;
-        x[x.size() - 1] = along == over_lambda ? 3 * s * s : -2 * s * s * s;
+        x[x.size() - 1] = along == by_lambda ? 3 * s * s : -2 * s * s * s;
         const Vector p{{3 * s * s, -2 * s * s * s}};
-        const Branch curve =
-            trace(folds(pitchfork(second), along), {.u = x, .p = p, .free = 1 - along, .direction = -1},
-                  window(-0.5, 1.5), {cusp_monitor(), bogdanov_takens_monitor()});
+        const Branch curve = trace(folds(unfolded_pitchfork(second), along),
+                                   {.u = x, .p = p, .free = 1 - along, .direction = -1}, window(-0.5, 1.5),
+                                   {cusp_monitor(), bogdanov_takens_monitor()});
         CAPTURE(second, along, s, curve.stop.message);
         CHECK(curve.stop.reason == StopReason::boundary);
         CHECK(curve.warnings.empty());
@@ -101,8 +101,8 @@ TEST_CASE("the folds of an unfolded pitchfork pass one cusp, and no Bogdanov-Tak
         CHECK(std::abs(cusp.point.parameter) < 1e-12);
         for (const Point& point : curve.points) {
           const double u = point.u[0], other = point.u[point.u.size() - 1];
-          const double lambda = along == over_lambda ? other : point.parameter,
-                       eps = along == over_lambda ? point.parameter : other;
+          const double lambda = along == by_lambda ? other : point.parameter,
+                       eps = along == by_lambda ? point.parameter : other;
           CHECK(std::abs(lambda - 3 * u * u) < 1e-9);
           CHECK(std::abs(eps + 2 * u * u * u) < 1e-9);
         }
