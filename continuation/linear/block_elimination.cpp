@@ -58,7 +58,8 @@ class BlockElimination final : public LinearSolver {
     if (!measure_rows()) return false;
     std::exception_ptr thrown;
     try {
-      if (takes(J_)) return ready_ = eliminate_columns();
+      ready_ = takes(J_) && eliminate_columns();
+      if (ready_) return true;
     } catch (const std::exception&) {
       thrown = std::current_exception();
     }
@@ -68,11 +69,17 @@ class BlockElimination final : public LinearSolver {
   }
 
   void solve(Out x) const override {
-    if (ready_ && refine(x, false)) return;
+    std::exception_ptr thrown;
+    try {
+      if (ready_ && refine(x, false)) return;
+    } catch (const std::exception&) {
+      thrown = std::current_exception();
+    }
     if (ready_ && !beside_tried_) {
       if (works_beside() && refine(x, false)) return;
       if (!ready_) returns_to_J();
     }
+    if (thrown) std::rethrow_exception(thrown);
     x.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
 

@@ -67,7 +67,7 @@ struct Event {
 ///   event            the first event of a terminal monitor: value is that of the monitor.
 ///   start_failed     |correction| > tolerance: Newton's method at the start did not converge. Causes: a start far
 ///                    from a solution, a wrong Jacobian, no solution there.
-///   step_too_small   |ds| < smallest step, after rejections. Causes: a wrong Jacobian, an end of the branch, a
+///   step_too_small   |ds| < smallest step. Causes: a wrong Jacobian, an end of the branch, a
 ///                    tolerance below rounding, a multiple branch point.
 ///   state_too_large  |u| > largest state, in scales: a branch that goes to infinity, such as an undamped resonance.
 ///   point_limit      points >= limit.

@@ -133,6 +133,8 @@ class Doubt {
 
   JacobianError find() {
     if (here_->move_to(u_, p_, Needs::jacobian) != Evaluated::ok) return {};
+    // The equations of a curve may depend on the first point that their evaluator sees, as by their borders.
+    if (beside_->move_to(u_, p_, Needs::residual) != Evaluated::ok) return {};
     here_->parameter_derivative(free_, F_p_);
     piece_ = here_->piece();
     const Vector scales = problem_.scales();

@@ -146,6 +146,8 @@ std::string doubt_of_branch_point(const Problem& problem, const Vector& v, const
   D << J, F_p;
   D = D * scales_of(problem, along).asDiagonal();
   if (!D.allFinite()) return {};
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (const double size = D.row(i).lpNorm<Eigen::Infinity>(); size > 0) D.row(i) /= size;
   const Vector values = singular_values(D.transpose()).values;
   if (!(values[n - 1] <= rank_lost * values[0])) return {};
   return "; it is a branch point, where [J F_p] has a rank below n, and no tangent tells the branches that "

@@ -1,6 +1,7 @@
 // Curves of folds: F = 0, g = 0 with the bordered J (stationary.hpp).
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/continuation/linear/linear_solvers.hpp>
 #include <arcslip/continuation/special_points/inner_problem.hpp>
 #include <arcslip/continuation/special_points/neighbours.hpp>
 #include <arcslip/continuation/special_points/on_curve.hpp>
@@ -16,6 +17,7 @@ namespace {
 
 // Of v in the direction of the curve. At a cusp it is 1, above the first; below the second the curve is far
 // from any, and below the third the share is zero by a symmetry.
+constexpr Eigen::Index largest_with_own_sign = 500;  // of M that is factorized once more for its sign alone
 constexpr double share_of_v_at_cusp = 0.5, least_share_of_v = 0.05, no_share_of_v = 1e-9;
 constexpr double outgrown = 4;  // times the size of the border b: J has become larger by more
 
@@ -109,6 +111,7 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
   // there. Far from them the product is taken for zero, so that its change of sign is located at once, and
   // keeps its sign where there is no share.
   double cusp_function(In tangent) const override {
+    if (!sign_known_) return std::nan("");
     const double size = v_.cwiseQuotient(scale_).squaredNorm() * (transposed_ ? z_.head(n_).norm() : 1);
     const double second = (transposed_ ? g_x_.dot(v_) : along(v_, *factors_.now())) / size;
     const double share = share_of_v(tangent);
@@ -119,6 +122,7 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
 
   double left_times_right() const override {
     if (!transposed_) return 1;
+    if (!sign_known_) return std::nan("");
     const auto w = z_.head(n_), v = v_.head(n_);
     return w.dot(v) / (w.norm() * v.norm());
   }
@@ -130,13 +134,25 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
     borders_.rows.col(0) = c_;
     borders_.corner(0, 0) = 0;
     if (!factors_.factorize(here_.at().jacobian(), borders_)) return false;
-    orientation_ = factors_.now()->determinant_sign().value_or(1);
+    orientation_ = sign_of_determinant();
     v_.setZero();
     v_[n_] = 1;
     factors_.now()->solve(v_);
     g_ = orientation_ * v_[n_];
     v_[n_] = 0;
     return v_.allFinite();
+  }
+
+  // Of M. Where its linear solver does not know it, another one does, up to some size.
+  double sign_of_determinant() {
+    auto sign = factors_.now()->determinant_sign();
+    const Jacobian& J = here_.at().jacobian();
+    if (!sign && n_ <= largest_with_own_sign && !std::holds_alternative<const Operator*>(J)) {
+      if (!signed_) signed_ = suitable_solver(J);
+      if (signed_->factorize(J, borders_)) sign = signed_->determinant_sign();
+    }
+    sign_known_ = sign.has_value();
+    return sign.value_or(1);
   }
 
   // M^T (w, g) = e_{n+1}; z has the sign of the determinant, with which the product of w and v has one of its
@@ -207,6 +223,8 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
   Vector b_, c_, R_, v_, z_, g_x_, g_p_, Jd_;
   mutable Vector work_;
   double g_ = 0, orientation_ = 1, size_of_b_ = 0;
+  bool sign_known_ = true;
+  std::unique_ptr<LinearSolver> signed_;
   bool first_ = true, transposed_ = false, given_ = false;
   Jacobian jacobian_;
 };

@@ -66,13 +66,15 @@ std::shared_ptr<const Problem> folds(std::shared_ptr<const Problem> problem, int
 /// On a curve of folds, zero at cusps: w . F_uu v v of the null vectors, |v| = 1 in scales, |w| = 1, times
 /// the share of v in the tangent of the curve, which is 1 at a cusp. It is 0, and no event, where that
 /// share is small. On other curves of stationary points its value is the second derivative of q
-/// along the branch.
+/// along the branch. Not a number where the linear solver does not know the sign of the determinant and n >
+/// 500.
 Monitor cusp_monitor();
 inline constexpr const char* cusp_event = "cusp";  // name of the monitor and its events
 
 /// On a curve of folds of u' = F, zero at Bogdanov-Takens points: w . v of the null vectors J v = 0, w J = 0
 /// of length 1, times the sign of det [J w; v^T 0], so that it goes with the product of the other eigenvalues
 /// of J. In one unknown it is never zero. Requires transposed solves; without them its value is never zero.
+/// Not a number where the linear solver does not know the sign of the determinant and n > 500.
 Monitor bogdanov_takens_monitor();
 
 /// The unknowns (u, p_along) of a point of a branch in p_along, the start of a curve.

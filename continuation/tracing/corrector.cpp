@@ -48,6 +48,7 @@ Corrector::Corrector(const Problem& problem, Vector p, int free, const NewtonOpt
       dv_(problem.size() + 1),
       next_(problem.size() + 1),
       trial_(problem.size() + 1),
+      across_(problem.size() + 1),
       metric_(problem.size()),
       free_(free),
       parameter_scale_(problem.parameters()[static_cast<std::size_t>(free)].change()) {
@@ -290,7 +291,8 @@ bool Corrector::damp(const Vector& v, double now) {
     trial_ = v + damping * dv_;
     if (!evaluate(trial_, Needs::residual)) continue;
     solve(next_);
-    if (size(next_, v) <= (1 - damping / 4) * now) return true;
+    const Vector& larger = norm_u(trial_) > norm_u(v) ? trial_ : v;
+    if (size(next_, larger) <= (1 - damping / 4) * now) return true;
   }
   return false;
 }
@@ -309,10 +311,10 @@ Correction Corrector::newton(Vector& v, const Vector& row, int iterations, Dampi
 // result: that of the chord steps before, if any.
 Correction Corrector::newton(Vector& v, const Vector& row, int iterations, Damping damping,
                              Correction result) {
-  Vector across;  // v beyond a kink that the last correction crossed: the result if there is no better one
+  bool crossed = false;  // a kink by the last correction: beyond it is the result if there is no better one
   const auto failed = [&]() -> Correction {
-    if (across.size() == 0) return result;
-    v = across;
+    if (!crossed) return result;
+    v = across_;
     p_[free_] = v[v.size() - 1];
     result.evaluated = result.converged = true;
     result.singular = result.linear = false;
@@ -345,13 +347,13 @@ Correction Corrector::newton(Vector& v, const Vector& row, int iterations, Dampi
     if (now <= linear_share * before) result.linear = false;
     if (now <= options_.tolerance || stagnates) {
       // Across a kink the equations are others, and the branch may be far from a solution of these.
-      const bool may_cross =
-          now > surely_within && !stagnates && across.size() == 0 && problem_.cheap_residual();
+      const bool may_cross = now > surely_within && !stagnates && !crossed && problem_.cheap_residual();
       if (may_cross) piece = piece_of_residual();
       v += dv_;
       p_[free_] = v[v.size() - 1];
       if (may_cross && piece && !is_in_piece(v, *piece, PieceTest::whole)) {
-        across = v;
+        across_ = v;
+        crossed = true;
         before = now;
         continue;
       }

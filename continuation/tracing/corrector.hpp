@@ -14,8 +14,8 @@
 // Large corrections are damped by the natural test of Deuflhard (Newton Methods for Nonlinear Problems, 2004,
 // chapter 3): |B^-1 F(v + lambda dv)| must fall below (1 - lambda/4) |dv|. It is invariant under scaling of
 // the equations and never compares Jacobians across a kink, so that for piecewise smooth F the method is a
-// safeguarded semismooth Newton method. Both sizes are relative to |u| at v, not at the trial point, so that
-// a solution u = 0 can be reached.
+// safeguarded semismooth Newton method. The former is relative to the larger |u| of the two
+// points, so that a solution u = 0 can be reached.
 
 #include <arcslip/continuation/events/scratch.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
@@ -144,7 +144,7 @@ class Corrector {
   std::unique_ptr<Evaluator> evaluator_;
   std::unique_ptr<LinearSolver> solver_;
   Borders borders_;
-  Vector p_, weights_, F_p_, dv_, next_, trial_;
+  Vector p_, weights_, F_p_, dv_, next_, trial_, across_;
   mutable Vector metric_;  // M x of the last product
   bool has_metric_;
   mutable std::string failure_;

@@ -146,7 +146,7 @@ bool EventLocator::refine(const Monitor& by, LocatedEvent& found) {
   if (!by.refine) return false;
   const auto now = look_at(found.place);
   auto refined = now ? call(by.refine, by, *now) : std::nullopt;
-  if (!refined) return false;
+  if (!refined || refined->v.size() != found.place.v.size() || !refined->v.allFinite()) return false;
   found.place.v = std::move(refined->v);
   const Eigen::Index n = found.place.v.size() - 1;
   found.event.point.u = found.place.v.head(n);
@@ -157,7 +157,7 @@ bool EventLocator::refine(const Monitor& by, LocatedEvent& found) {
 
 std::optional<Accepted> EventLocator::look_at(const CurvePoint& event) {
   if (!probe().linearize(event.v, probe().border_row(event.tangent))) return std::nullopt;
-  probe().move_to(event.v);
+  if (!probe().move_to(event.v)) return std::nullopt;
   return accepted(probe(), event);
 }
 
@@ -168,7 +168,7 @@ std::optional<Accepted> EventLocator::look_near(const CurvePoint& event) {
   const double aside = beside_event * (1 + probe().norm_u(event.v));
   if (!probe().linearize(event.v + aside * event.tangent, probe().border_row(event.tangent)))
     return std::nullopt;
-  probe().move_to(event.v);
+  if (!probe().move_to(event.v, Needs::jacobian)) return std::nullopt;
   return accepted(probe(), event);
 }
 

@@ -13,11 +13,16 @@ bool is_regular(const Correction& found) {
   return found.converged && !found.linear;
 }
 
-class FirstPoint {
+class Search {
  public:
-  FirstPoint(const Problem& problem, Corrector& with, const Options& options, const Vector& row,
-             const Vector& guess)
-      : problem_(problem), with_(with), options_(options), row_(row), guess_(guess) {}
+  Search(const Problem& problem, Corrector& with, const Options& options,
+         const std::function<bool()>& keep_going, const Vector& row, const Vector& guess)
+      : problem_(problem),
+        with_(with),
+        options_(options),
+        keep_going_(keep_going),
+        row_(row),
+        guess_(guess) {}
 
   Correction newton(Vector& v, Damping damping) {
     v = guess_;
@@ -26,10 +31,12 @@ class FirstPoint {
 
   // Newton's method from the points of a transient.
   Correction transient(Vector& v, int direction) {
-    PseudoTransient motion(problem_, with_, guess_, direction);
+    PseudoTransient motion(problem_, with_,
+                           options_.linear_solver ? options_.linear_solver() : problem_.linear_solver(),
+                           guess_, direction);
     Correction last;
     double tried = decrease * motion.residual();
-    for (int k = 0; k < options_.newton.transient_steps && goes_on() && motion.step(); ++k) {
+    for (int k = 0; k < options_.newton.transient_steps && keep_going() && motion.step(); ++k) {
       if (motion.residual() > tried) continue;
       tried = decrease * motion.residual();
       v = motion.point();
@@ -39,34 +46,36 @@ class FirstPoint {
     return last;
   }
 
-  bool goes_on() const { return !options_.go_on || options_.go_on(); }
+  bool keep_going() { return !is_stopped && !(is_stopped = !keep_going_()); }
+
+  bool is_stopped = false;
 
  private:
   const Problem& problem_;
   Corrector& with_;
   const Options& options_;
+  const std::function<bool()>& keep_going_;
   const Vector& row_;
   Vector guess_;
 };
 
 }  // namespace
 
-Correction first_point(const Problem& problem, Corrector& with, const Options& options, const Vector& row,
-                       Vector& v) {
-  FirstPoint search(problem, with, options, row, v);
-  const Vector guess = v;
-  const Correction first = search.newton(v, Damping::natural);
-  if (first.converged) return first;
-  const bool can_begin = first.iterations > 0 || first.evaluated;
-  if (can_begin && search.goes_on()) {
-    if (const Correction found = search.newton(v, Damping::none); is_regular(found)) return found;
-    const bool is_near_singular_solution = first.linear && first.last < local;
-    for (const int direction : {1, -1})
-      if (!is_near_singular_solution)
-        if (const Correction found = search.transient(v, direction); is_regular(found)) return found;
-    search.newton(v, Damping::natural);  // for what it says of its failure
-  }
-  v = guess;
+FirstPoint first_point(const Problem& problem, Corrector& with, const Options& options,
+                       const std::function<bool()>& keep_going, const Vector& row, Vector& v) {
+  Search search(problem, with, options, keep_going, row, v);
+  FirstPoint first{search.newton(v, Damping::natural), with.failure()};
+  const Correction& by_newton = first.correction;
+  if (by_newton.converged || (by_newton.iterations == 0 && !by_newton.evaluated)) return first;
+  const Vector ended = v;
+  if (search.keep_going())
+    if (const Correction found = search.newton(v, Damping::none); is_regular(found)) return {found, {}};
+  const bool is_near_singular_solution = by_newton.linear && by_newton.last < local;
+  for (const int direction : {1, -1})
+    if (!is_near_singular_solution && search.keep_going())
+      if (const Correction found = search.transient(v, direction); is_regular(found)) return {found, {}};
+  v = ended;
+  first.is_stopped = search.is_stopped;
   return first;
 }
 

@@ -8,12 +8,20 @@
 #include <arcslip/continuation/problem/options.hpp>
 #include <arcslip/continuation/tracing/corrector.hpp>
 
+#include <functional>
+#include <string>
+
 namespace arcslip::continuation {
 
-/// v: n + 1, the guess (u, p), becomes the solution at the same p; where none is found it is the guess, and
-/// the result is that of the first try. row: the unit vector of p. options: newton and go_on, which ends the
-/// search when it returns false.
-Correction first_point(const Problem& problem, Corrector& with, const Options& options, const Vector& row,
-                       Vector& v);
+struct FirstPoint {
+  Correction correction;    // to the solution; where none is found, that of the first try
+  std::string failure;      // Corrector::failure() of that
+  bool is_stopped = false;  // by keep_going, before any other try
+};
+
+/// v: n + 1, the guess (u, p), becomes the solution at the same p; where none is found, the place where the
+/// first try ended. row: the unit vector of p.
+FirstPoint first_point(const Problem& problem, Corrector& with, const Options& options,
+                       const std::function<bool()>& keep_going, const Vector& row, Vector& v);
 
 }  // namespace arcslip::continuation

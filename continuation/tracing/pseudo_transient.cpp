@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <utility>
 
 namespace arcslip::continuation {
 namespace {
@@ -31,9 +33,11 @@ Jacobian shifted(const Jacobian& J, double length, int direction) {
 
 }  // namespace
 
-PseudoTransient::PseudoTransient(const Problem& problem, Corrector& with, const Vector& guess, int direction)
+PseudoTransient::PseudoTransient(const Problem& problem, Corrector& with,
+                                 std::unique_ptr<LinearSolver> solver, const Vector& guess, int direction)
     : with_(with),
       direction_(direction),
+      solver_(std::move(solver)),
       none_(problem.size(), 0),
       v_(guess),
       trial_(guess),
@@ -65,7 +69,7 @@ bool PseudoTransient::is_solution(const Vector& scales) const {
   return (F_.head(n).array().abs() <= rounding * terms.array()).all();
 }
 
-bool PseudoTransient::solve() {
+bool PseudoTransient::solve() try {
   const Eigen::Index n = F_.size() - 1;
   const Jacobian matrix = shifted(J_, length_, direction_);
   if (!solver_) solver_ = suitable_solver(matrix);
@@ -73,6 +77,8 @@ bool PseudoTransient::solve() {
   change_.head(n) = direction_ * F_.head(n);
   solver_->solve(change_.head(n));
   return change_.allFinite();
+} catch (const std::exception&) {  // of the linear solver
+  return false;
 }
 
 bool PseudoTransient::step() {

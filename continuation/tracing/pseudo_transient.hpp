@@ -18,9 +18,10 @@ namespace arcslip::continuation {
 /// A motion from a guess. Not for Jacobians that are operators: step() is then false.
 class PseudoTransient {
  public:
-  /// with: its evaluator is used between the calls of step(), and it must outlive this. guess: (u, p), n + 1.
-  /// direction: +1 for u' = F, -1 for u' = -F.
-  PseudoTransient(const Problem& problem, Corrector& with, const Vector& guess, int direction);
+  /// with: its evaluator is used between the calls of step(), and it must outlive this. solver: none, the
+  /// default. guess: (u, p), n + 1. direction: +1 for u' = F, -1 for u' = -F.
+  PseudoTransient(const Problem& problem, Corrector& with, std::unique_ptr<LinearSolver> solver,
+                  const Vector& guess, int direction);
 
   /// False: no step that the problem can be evaluated at, or the guess is a solution.
   bool step();

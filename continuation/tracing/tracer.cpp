@@ -254,7 +254,7 @@ std::optional<CrossedModes> Tracer::Impl::count_modes() {
 // pieces meet, it is not known.
 bool Tracer::Impl::changes_determinant(const std::optional<CrossedModes>& crossed) {
   const CurvePoint& to = trial_.end;
-  if (to.orientation != 0) return to.orientation != s_.here.orientation;
+  if (to.orientation != 0 && s_.here.orientation != 0) return to.orientation != s_.here.orientation;
   if (to.piece != s_.here.piece) return false;
   const TransverseSpace::Sign sign = transverse_.compare(trial_);
   const auto is_odd = [](const CrossedModes& modes) { return modes.count % 2 == 1; };
@@ -422,11 +422,14 @@ void Tracer::Impl::end_in_tail(double bound) {
           " in scales");
 }
 
+// 0: there is no limit.
+double Tracer::Impl::seconds() const {
+  if (options_.seconds == 0) return 0;
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+}
+
 bool Tracer::Impl::within_limits() {
-  double seconds = 0;
-  if (options_.seconds > 0)
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-  const auto stop = limit_reached(options_, s_.branch, n_, main_.norm_u(s_.here.v), s_.here.v[n_], seconds);
+  const auto stop = limit_reached(options_, s_.branch, n_, main_.norm_u(s_.here.v), s_.here.v[n_], seconds());
   return !stop || end(stop->reason, stop->value, stop->limit, stop->message);
 }
 

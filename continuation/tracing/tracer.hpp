@@ -20,8 +20,8 @@ namespace arcslip::continuation {
 
 /// The end of the message of a stop where Newton's method hardly converges at a start without a tangent.
 inline constexpr const char* needs_tangent =
-    ": at a fold or a branch point p does not determine the direction, and a start needs a tangent "
-    "(Start::tangent)";
+    ": at a fold p does not determine the direction, and a start needs a tangent (Start::tangent); at a "
+    "branch point start beside it";
 
 /// The start of a branch: an approximate solution u at the parameters p.
 struct Start {

@@ -8,6 +8,7 @@
 #include <arcslip/continuation/tracing/crossed_modes.hpp>
 #include <arcslip/continuation/tracing/ends.hpp>
 #include <arcslip/continuation/tracing/event_locator.hpp>
+#include <arcslip/continuation/tracing/first_point.hpp>
 #include <arcslip/continuation/tracing/jacobian_watch.hpp>
 #include <arcslip/continuation/tracing/recorder.hpp>
 #include <arcslip/continuation/tracing/resolution.hpp>
@@ -44,6 +45,7 @@ class Tracer::Impl {
   enum class Outcome { accepted, rejected, unresolved, ended };
 
   bool begin();  // tracer_start.cpp
+  bool end_at_start(const FirstPoint& first, const Vector& guess, bool has_tangent);
   std::string singular_start(bool has_tangent) const;
 
   bool may_try();
@@ -70,6 +72,8 @@ class Tracer::Impl {
   void end_in_tail(double bound);
   bool end_at(const CurvePoint& terminal);
   bool within_limits();
+  double seconds() const;
+  bool is_out_of_time() const { return options_.seconds > 0 && seconds() >= options_.seconds; }
   bool end(StopReason reason, double value, double limit, std::string message);
 
   std::shared_ptr<const Problem> problem_;

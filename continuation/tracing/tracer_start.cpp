@@ -130,6 +130,29 @@ std::string Tracer::Impl::singular_start(bool has_tangent) const {
   return !doubt.empty() || has_tangent ? doubt : needs_tangent;
 }
 
+// No solution was found from the guess: the search is at s_.here.
+bool Tracer::Impl::end_at_start(const FirstPoint& first, const Vector& guess, bool has_tangent) {
+  const Correction& correction = first.correction;
+  const auto end_with = [&](StopReason reason, const std::string& message) {
+    return end(reason, correction.last, options_.newton.tolerance, message + because(first.failure));
+  };
+  if (first.is_stopped) {
+    s_.here.v = guess;
+    return within_limits() && end(StopReason::user, 1, 1, "stopped by the caller");
+  }
+  if (correction.singular)
+    return end_with(StopReason::start_failed, "the linearization at the start is singular" +
+                                                  (first.failure.empty() ? singular_start(has_tangent) : ""));
+  if (!correction.evaluated)
+    return end_with(StopReason::not_evaluated, "the problem could not be evaluated at the start");
+  std::string doubts = jacobian_.doubt(s_.here.v, guess);
+  if (doubts.empty() && correction.linear && !has_tangent)
+    doubts = std::string("; it converges slowly") + needs_tangent;
+  return end_with(StopReason::start_failed, "the corrector did not converge at the start (" +
+                                                std::to_string(correction.iterations) + " iterations)" +
+                                                doubts);
+}
+
 bool Tracer::Impl::begin() {
   s_.begun = true;
   const bool given = s_.here.tangent.size() != 0;
@@ -137,23 +160,11 @@ bool Tracer::Impl::begin() {
   main_.border_row(s_.here.tangent, row_);
   const Vector guess = s_.here.v;
   // A start with a tangent is a prediction; without, it may be far from the branch.
-  const Correction correction = given ? main_.correct(s_.here.v, row_, false)
-                                      : first_point(*problem_, main_, options_, row_, s_.here.v);
-  if (correction.singular)
-    return end(StopReason::start_failed, correction.last, options_.newton.tolerance,
-               "the linearization at the start is singular" + because(main_.failure()) +
-                   (main_.failure().empty() ? singular_start(given) : ""));
-  if (!correction.converged && correction.evaluated) {
-    std::string doubts = jacobian_.doubt(s_.here.v, guess);
-    if (doubts.empty() && correction.linear && !given)
-      doubts = std::string("; it converges slowly") + needs_tangent;
-    return end(StopReason::start_failed, correction.last, options_.newton.tolerance,
-               "the corrector did not converge at the start (" + std::to_string(correction.iterations) +
-                   " iterations)" + doubts + because(main_.failure()));
-  }
-  if (!correction.converged)
-    return end(StopReason::not_evaluated, correction.last, options_.newton.tolerance,
-               "the problem could not be evaluated at the start" + because(main_.failure()));
+  const auto keep_going = [this] { return (!options_.go_on || options_.go_on()) && !is_out_of_time(); };
+  const FirstPoint first = given ? FirstPoint{main_.correct(s_.here.v, row_, false), main_.failure()}
+                                 : first_point(*problem_, main_, options_, keep_going, row_, s_.here.v);
+  const Correction& correction = first.correction;
+  if (!correction.converged) return end_at_start(first, guess, given);
   if (!settle(main_, s_.here)) {
     const std::string& failure = main_.failure();
     return end(failure.empty() ? StopReason::start_failed : StopReason::not_evaluated, 0, 0,

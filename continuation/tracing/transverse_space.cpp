@@ -87,7 +87,10 @@ void TransverseSpace::keep(Trial& trial, const CurvePoint& place) {
     trial.has_basis = false;
   }
   if (!trial.has_basis) trial.has_basis = measure(place, trial.basis);
-  if (trial.has_basis) s_.transverse.basis = trial.basis;
+  if (trial.has_basis)
+    s_.transverse.basis = trial.basis;
+  else
+    s_.transverse.basis.resize(0);  // compare() is then open
 }
 
 }  // namespace arcslip::continuation

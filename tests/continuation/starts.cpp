@@ -3,7 +3,11 @@
 #include "random.hpp"
 #include "textbook_systems.hpp"
 
+#include <arcslip/continuation/linear/linear_solvers.hpp>
+
 #include <Eigen/LU>
+
+#include <stdexcept>
 
 using namespace arcslip::continuation;
 
@@ -118,18 +122,45 @@ TEST_CASE("a start on a fold or a branch point, and one without a solution, are 
   CHECK(first_point(fold, Vector{{0.5}}, -1).stop.reason == StopReason::start_failed);
 }
 
-TEST_CASE("a caller who stops ends the search for a first point") {
+TEST_CASE("a caller or a time limit ends the search for a first point, and the branch says which") {
+  const auto none = from_functions(1, {{"p", "", 0}}, [](In u, In, Out F) { F[0] = 1 + u[0] * u[0]; });
+  const Start start{.u = Vector{{0.3}}, .p = Vector{{0.0}}};
+  Options options{.lower = -1, .upper = 1};
+  long asked = 0, last = 5;
+  options.go_on = [&] { return ++asked != last; };
+  const Branch stopped = trace(none, start, options);
+  CHECK(stopped.stop.reason == StopReason::user);
+  CHECK(asked == last);
+  asked = 0, last = -1;
+  const Branch failed = trace(none, start, options);
+  CHECK(failed.stop.reason == StopReason::start_failed);
+  CHECK(asked > 5);
+  options.newton.transient_steps = 0;
+  CHECK(trace(none, start, options).counts.jacobians < failed.counts.jacobians);
+  options.seconds = 1e-9;
+  CHECK(trace(none, start, options).stop.reason == StopReason::time_limit);
+}
+
+TEST_CASE("a Jacobian that is wrong away from the guess is named where Newton's method failed") {
+  const auto problem = from_functions(
+      1, {{"p", "", 2}}, [](In u, In p, Out F) { F[0] = u[0] + std::pow(u[0], 3) - p[0]; },
+      [](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = 1 - 2 * u[0] * u[0]; }, {}, Vector{{10.0}});
+  const Branch branch = trace(problem, {.u = Vector{{0.0}}, .p = Vector{{2.0}}}, {.lower = 0, .upper = 4});
+  REQUIRE(branch.points.empty());
+  CHECK(branch.stop.message.find("dF[0]/du[0] is given as") != std::string::npos);
+}
+
+TEST_CASE("a user's linear solver is used for the motions as well, and may throw there") {
+  class Throws final : public PlainSolver {
+   public:
+    const char* name() const override { return "throws"; }
+    bool prepare(const Jacobian&) override { throw std::runtime_error("no memory"); }
+    bool solve(In, Out) const override { return false; }
+  };
   const auto none = from_functions(1, {{"p", "", 0}}, [](In u, In, Out F) { F[0] = 1 + u[0] * u[0]; });
   Options options{.lower = -1, .upper = 1};
-  int asked = 0;
-  options.go_on = [&] { return ++asked < 5; };
-  CHECK(trace(none, {.u = Vector{{0.3}}, .p = Vector{{0.0}}}, options).points.empty());
-  const int when_stopped = asked;
-  asked = -1000000;
-  trace(none, {.u = Vector{{0.3}}, .p = Vector{{0.0}}}, options);
-  CHECK(when_stopped < asked + 1000000);
-  options.newton.transient_steps = 0;
-  asked = -1000000;
-  const long with_none = trace(none, {.u = Vector{{0.3}}, .p = Vector{{0.0}}}, options).counts.jacobians;
-  CHECK(with_none <= 3 * options.newton.start_iterations);
+  options.linear_solver = [] { return block_elimination(std::make_unique<Throws>()); };
+  const Branch branch = trace(none, {.u = Vector{{0.3}}, .p = Vector{{0.0}}}, options);
+  CHECK(branch.stop.reason == StopReason::start_failed);
+  CHECK(branch.stop.message.find("no memory") != std::string::npos);
 }

@@ -233,3 +233,25 @@ TEST_CASE("wrong second derivatives are said to be that") {
   REQUIRE(curve.warnings.size() == 1);
   CHECK(curve.warnings[0].find("second derivatives are wrong: ") == 0);
 }
+
+TEST_CASE("the derivatives of a curve of folds are not blamed for the borders of another place") {
+  Functions f;
+  f.size = 2;
+  f.parameters = {{"a", "", 0}, {"b", "", 0}, {"c", "", 1}};
+  f.residual = [](In u, In p, Out F) {
+    F << p[0] + p[1] * u[0] - p[2] * u[1] + u[1] * u[1], u[1] - u[0] * u[0];
+  };
+  f.jacobian = [](In u, In p, Eigen::Ref<Matrix> J) { J << p[1], -p[2] + 2 * u[1], -2 * u[0], 1; };
+  f.second = [](In, In, In w, In v, In q, Out du, Out dp) {
+    du << -2 * w[1] * v[0] + w[0] * q[1], 2 * w[0] * v[1] - w[0] * q[2];
+    dp << 0, w[0] * v[0], -w[0] * v[1];
+  };
+  const auto curve = folds(from_functions(f), 0);
+  for (const double x : {0.5, 1.0, 1.7}) {  // c = 1: b = 2 x - 4 x^3 makes J singular, a makes F vanish
+    const double b = 2 * x - 4 * std::pow(x, 3);
+    const Vector u{{x, x * x, -b * x + x * x - std::pow(x, 4)}}, p{{0, b, 1}};
+    CAPTURE(x);
+    CHECK(doubt_jacobian(*curve, u, p, 1).message.empty());
+    CHECK(doubt_jacobian(*curve, u, p, 2).message.empty());
+  }
+}
