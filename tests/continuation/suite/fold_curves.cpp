@@ -4,12 +4,11 @@
 
 #include "continuation/suite/cases.hpp"
 #include "continuation/suite/problems.hpp"
+#include "continuation/users_solvers.hpp"
 
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 #include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/continuation/special_points/stationary.hpp>
-
-#include <Eigen/LU>
 
 using namespace suite;
 using namespace arcslip::continuation;
@@ -59,35 +58,16 @@ TEST_CASE(
 }
 
 TEST_CASE("a solver without the sign of the determinant finds the same points on a curve of folds") {
-  class DenseLu final : public PlainSolver {
-   public:
-    const char* name() const override { return "dense"; }
-    bool prepare(const Jacobian& J) override {
-      lu_.compute(std::get<Matrix>(J));
-      return true;
-    }
-    bool solve(In b, Out x) const override {
-      x = lu_.solve(Vector(b));
-      return x.allFinite();
-    }
-    bool solve_transposed(In b, Out x) const override {
-      x = lu_.transpose().solve(Vector(b));
-      return x.allFinite();
-    }
-
-   private:
-    Eigen::PartialPivLU<Matrix> lu_;
-  };
   const Case c = named("ab");
   // On the curve p3 = 14 x (1 - x) - 1 of its folds, y = 1 / (1 - x).
   const double x = 0.08, y = 1 / (1 - x), p3 = 14 * x * (1 - x) - 1;
   Vector p = c.start.p;
   const int over = index(c.problem, "p3");
   p[over] = p3;
-  const MakeLinearSolver without_sign = [] { return block_elimination(std::make_unique<DenseLu>()); };
-  const Branch curve = arcslip::continuation::trace(
-      folds(c.problem, c.start.free, without_sign), {Vector{{x, y, x / (1 - x) * std::exp(-y)}}, p, over, 1},
-      window(0.01, 3), {cusp_monitor(), bogdanov_takens_monitor()});
+  const Branch curve =
+      arcslip::continuation::trace(folds(c.problem, c.start.free, users::without_sign()),
+                                   {Vector{{x, y, x / (1 - x) * std::exp(-y)}}, p, over, 1}, window(0.01, 3),
+                                   {cusp_monitor(), bogdanov_takens_monitor()});
   CAPTURE(curve.stop.message);
   CHECK(curve.warnings.empty());
   const auto cusps = named_events(curve, "cusp"), takens = named_events(curve, "bogdanov_takens");
