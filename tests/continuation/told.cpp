@@ -133,3 +133,15 @@ TEST_CASE("a parameter among the unknowns of a curve is refused as the free one,
       trace(folds(problem, 0), {Vector{{0.5, -0.25}}, Vector{{0.0, 0.75}}, 0, 1}, window(-1, 1)),
       "the parameter \"mu\" is among the unknowns of this problem: another one has to be free");
 }
+
+TEST_CASE("a start on a fold is not told to be a branch point where equations have other units") {
+  // p = u0^2 in N, and a second equation in units a billion times larger
+  const auto units = from_functions(
+      2, {{"p", "", 0}}, [](In u, In p, Out F) { F << p[0] - u[0] * u[0], 1e-9 * (u[1] - 2 * p[0]); },
+      [](In u, In, Eigen::Ref<Matrix> J) { J << -2 * u[0], 0, 0, 1e-9; });
+  const Branch branch = trace(units, {.u = Vector{{0.0, 0.0}}, .p = Vector{{0.0}}}, window(-1, 1));
+  CAPTURE(branch.stop.message);
+  CHECK(branch.stop.reason == StopReason::start_failed);
+  CHECK_FALSE(says(branch.stop.message, "branch point, where"));
+  CHECK(says(branch.stop.message, "needs a tangent"));
+}

@@ -147,6 +147,29 @@ TEST_CASE("every fold of the suite is found with a user's sparse LU, and its bra
   }
 }
 
+TEST_CASE("a trace starts on a fold with a tangent, whatever a user's solver makes of the singular J there") {
+  Functions f;
+  f.size = 1;
+  f.parameters = {{"p", "", 0}};
+  f.residual = [](In u, In p, Out F) { F[0] = p[0] - u[0] * u[0]; };
+  f.sparse_jacobian = [](In u, In, SparseMatrix& J) {
+    if (J.nonZeros() == 0) J.insert(0, 0) = 1;
+    J.coeffRef(0, 0) = -2 * u[0];
+  };
+  const auto fold = from_functions(std::move(f));
+  for (const MakeLinearSolver& solver : {MakeLinearSolver(), sparse_lu(), sparse_lu(Manner::throws),
+                                         sparse_lu(Manner::says_nothing), least_squares()}) {
+    Options options = window(-1, 1);
+    options.linear_solver = solver;
+    const Branch branch =
+        trace(fold, {.u = Vector{{0.0}}, .p = Vector{{0.0}}, .tangent = Vector{{1.0, 0.0}}}, options);
+    CAPTURE(branch.linear_solver, branch.stop.message);
+    CHECK(branch.stop.reason == StopReason::boundary);
+    REQUIRE(!branch.points.empty());
+    CHECK(std::abs(branch.points.back().u[0] - 1) < 1e-12);
+  }
+}
+
 TEST_CASE("a double branch point has its branches without transposed solves, too") {
   // p u_i - u_i^2 + d (differences) in a ring of three: u = 0 is crossed at 0, and at 3 d by the three
   // branches on which two cells are equal.
