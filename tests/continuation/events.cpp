@@ -146,3 +146,16 @@ TEST_CASE(
       CHECK(std::abs(branch.events[1].point.parameter - (c + off)) < 1e-10);
     }
 }
+
+TEST_CASE("a place of an event that its monitor refines to no place at all is not taken") {
+  const auto line = from_functions(1, {{"p", "", 0}}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
+  for (const Vector& bad : {Vector(), Vector{{0.5}}, Vector{{0.5, std::nan("")}}, Vector{{0.25, 0.25}}}) {
+    Monitor half{.name = "half", .value = [](const Accepted& now) { return now.u[0] - 0.5; }};
+    half.refine = [&](const Accepted&) { return std::optional(RefinedEvent{bad, {}}); };
+    const Branch branch =
+        trace(line, {.u = Vector{{0.0}}, .p = Vector{{0.0}}}, {.lower = 0, .upper = 1}, {half});
+    REQUIRE(branch.events.size() == 1);
+    const bool is_place = bad.size() == 2 && bad.allFinite();
+    CHECK(std::abs(branch.events[0].point.parameter - (is_place ? 0.25 : 0.5)) < 1e-12);
+  }
+}
