@@ -41,7 +41,7 @@ bool interrupted() {
 }
 
 bool Interruption::is_new() {
-  return interrupted() && !std::exchange(told_, true);
+  return interrupted() && !std::exchange(reported_, true);
 }
 
 }  // namespace arcslip::app

@@ -16,7 +16,7 @@ class Interruption {
   bool is_new();
 
  private:
-  bool told_ = false;
+  bool reported_ = false;
 };
 
 }  // namespace arcslip::app

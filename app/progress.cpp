@@ -60,14 +60,14 @@ std::string progress_text(const results::Progress& progress, const std::string& 
 
 ProgressLine::ProgressLine(bool quiet, std::string unit)
     : shown_(!quiet), terminal_(::isatty(STDERR_FILENO) == 1), unit_(std::move(unit)) {
-  next_ = begin_ + (terminal_ ? rewritten_every : told_every);
+  next_ = begin_ + (terminal_ ? rewritten_every : reported_every);
 }
 
 void ProgressLine::show(const results::Progress& progress) {
   if (!shown_) return;
   const auto now = Clock::now();
   if (now < next_) return;
-  next_ = now + (terminal_ ? rewritten_every : told_every);
+  next_ = now + (terminal_ ? rewritten_every : reported_every);
   std::string line = progress_text(progress, unit_, std::chrono::duration<double>(now - begin_).count());
   if (!terminal_) {
     tell(line);

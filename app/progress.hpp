@@ -23,7 +23,7 @@ class ProgressLine {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::milliseconds rewritten_every{100}, told_every{10000};
+  static constexpr std::chrono::milliseconds rewritten_every{100}, reported_every{10000};
   bool shown_, terminal_;
   std::string unit_;
   std::size_t width_ = 0;  // of the line shown now

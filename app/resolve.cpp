@@ -209,8 +209,8 @@ void check_range(const scene::Scene& scene, const scene::Study& study, const std
 std::string option_at(const std::string& place, const CommandOptions& options) {
   const std::string key = place.substr(0, place.find('/'));
   for (const GivenKey& given : options.keys) {
-    const std::vector<std::string> beside = scene::keys_beside(given.key.type);
-    if (key != given.key.name && std::find(beside.begin(), beside.end(), key) == beside.end()) continue;
+    const std::vector<std::string> nearby = scene::keys_next_to(given.key.type);
+    if (key != given.key.name && std::find(nearby.begin(), nearby.end(), key) == nearby.end()) continue;
     const auto* ranges = std::get_if<std::vector<RangeOption>>(&given.value);
     if (ranges == nullptr) {
       const auto* number = std::get<Node>(given.value).get<double>();
@@ -291,7 +291,7 @@ scene::Scene with_options(const scene::Scene& scene, std::size_t index, const Co
     if (key.type == KeyType::followed && find(keys, key.name) == nullptr && !along.empty() &&
         std::find(named.begin(), named.end(), along) != named.end()) {
       keys.push_back({key.name, {nullptr}});
-      for (const std::string& gone : scene::keys_beside(key.type)) keys.push_back({gone, {nullptr}});
+      for (const std::string& gone : scene::keys_next_to(key.type)) keys.push_back({gone, {nullptr}});
     }
   }
   std::vector<Member> all = keys;

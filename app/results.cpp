@@ -29,10 +29,10 @@ namespace arcslip::app {
 namespace {
 
 constexpr std::array<const char*, 4> file_extensions = {".scene.json", ".json", ".dat", ".gp"};
-constexpr std::array<const char*, 3> csv_parts = {"events", "cases", "summary"};  // beside the first table
+constexpr std::array<const char*, 3> csv_parts = {"events", "cases", "summary"};  // next to the first table
 
-/// "a.events.csv" beside "a.csv".
-std::string beside(const std::string& file, const std::string& part) {
+/// "a.events.csv" next to "a.csv".
+std::string nearby(const std::string& file, const std::string& part) {
   std::filesystem::path path(file);
   const std::string extension = path.extension().string();
   path.replace_extension();
@@ -88,7 +88,7 @@ bool may_wait(const std::string& place) {
 void add_csv_places(const std::string& what, const std::string& path, std::vector<OutputPath>& places) {
   if (path != "-") places.push_back({what, path});
   for (const char* part : csv_parts)
-    if (!may_wait(path)) places.push_back({what, beside(path, part)});
+    if (!may_wait(path)) places.push_back({what, nearby(path, part)});
 }
 
 File json_file(const std::string& path) {
@@ -99,14 +99,14 @@ std::vector<File> csv_files(const std::string& path, std::span<const results::Sc
   std::vector<File> files;
   const std::vector<std::string> keys = results::table_keys(schemas);
   for (const std::string& key : keys) {
-    files.push_back({files.empty() ? path : beside(path, key),
+    files.push_back({files.empty() ? path : nearby(path, key),
                      [key](std::ostream& out) { return std::make_unique<results::CsvWriter>(out, key); }});
   }
   if (may_wait(path)) {
     files.resize(1);
     return files;
   }
-  files.push_back({beside(path, "summary"),
+  files.push_back({nearby(path, "summary"),
                    [](std::ostream& out) { return std::make_unique<results::CsvSummary>(out); }});
   return files;
 }
@@ -116,8 +116,8 @@ std::vector<std::string> older_tables(const std::string& path, std::span<const r
   const std::vector<std::string> keys = results::table_keys(schemas);
   for (const char* part : {"events", "cases"})
     if (!may_wait(path) && std::find(keys.begin(), keys.end(), part) == keys.end() &&
-        is_table(beside(path, part)))
-      older.push_back(beside(path, part));
+        is_table(nearby(path, part)))
+      older.push_back(nearby(path, part));
   return older;
 }
 

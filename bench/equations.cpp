@@ -4,7 +4,7 @@
 //   equations/element/H:N   the damper alone, odd harmonics
 //   equations/odd/H:N       the oscillator, odd harmonics
 //   equations/all/H:N       the same with the mean and even harmonics
-//   equations/masses/H:N    the same beside 20 other masses, odd harmonics
+//   equations/masses/H:N    the same next to 20 other masses, odd harmonics
 //
 // Each at another frequency than the one before, as along a branch.
 
@@ -36,7 +36,7 @@ At at(const scene::Scene& scene, bool odd) {
   return found;
 }
 
-scene::Scene beside_masses(int order) {
+scene::Scene near_masses(int order) {
   scene::Scene scene = bench::paper(order);
   for (int i = 1; i <= 20; ++i) {
     const std::string n = std::to_string(i);
@@ -81,7 +81,7 @@ void all(benchmark::State& state) {
   equations(state, bench::paper(static_cast<int>(state.range(0))), false);
 }
 void masses(benchmark::State& state) {
-  equations(state, beside_masses(static_cast<int>(state.range(0))), true);
+  equations(state, near_masses(static_cast<int>(state.range(0))), true);
 }
 
 void equation_orders(benchmark::internal::Benchmark* b) {

@@ -137,13 +137,13 @@ double reference(const scene::Scene& scene, double frequency) {
   return found.period.amplitude;
 }
 
-enum class Beside { march, order_401 };
+enum class Comparison { march, order_401 };
 enum class Steps { sampled, none };  // none: in time it is many sliders
 
-void table(const char* name, const scene::Scene& scene, double frequency, Beside beside = Beside::march,
-           Steps steps = Steps::sampled) {
+void table(const char* name, const scene::Scene& scene, double frequency,
+           Comparison nearby = Comparison::march, Steps steps = Steps::sampled) {
   const double amplitude =
-      beside == Beside::march ? reference(scene, frequency) : exact(scene, frequency, 401).amplitude();
+      nearby == Comparison::march ? reference(scene, frequency) : exact(scene, frequency, 401).amplitude();
   for (const int order : {1, 3, 5, 7, 11, 15, 21, 27, 39, 55, 77, 101, 143, 201}) {
     const Balanced balanced = exact(scene, frequency, order);
     const auto row = [&](int samples, double found) {
@@ -185,11 +185,11 @@ int main() {
   table("contact_2d", pad, 95);
   scene::Scene orbit = bench::example("orbiting_pad");
   scene::set(orbit, "lift.cosine", 15);
-  table("contact_3d closed", orbit, 34, Beside::order_401);
+  table("contact_3d closed", orbit, 34, Comparison::order_401);
   scene::set(orbit, "lift.cosine", 60);
-  table("contact_3d", orbit, 34, Beside::order_401);
+  table("contact_3d", orbit, 34, Comparison::order_401);
   table("iwan table",
         joint(R"("distribution": "table", "table": [[0.5, 0.05], [0.4, 0.1], [0.5, 0.2], [0.6, 0.4]])", 0.3),
         1.2);
-  table("iwan", joint(R"("stiffness": 2, "slip_force": 1.5)", 0.3), 1.2, Beside::order_401, Steps::none);
+  table("iwan", joint(R"("stiffness": 2, "slip_force": 1.5)", 0.3), 1.2, Comparison::order_401, Steps::none);
 }

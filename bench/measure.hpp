@@ -68,7 +68,7 @@ void measure(benchmark::State& state, const Work& work, int calls = 1) {
   if (const int number = profile(work)) state.counters["profile"] = number;
 }
 
-/// The least seconds of something that is done beside.
+/// The least seconds of something that is done as well.
 template <class Work>
 double least_seconds(const Work& work) {
   constexpr int batches = 20;

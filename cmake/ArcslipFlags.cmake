@@ -34,7 +34,7 @@ if(PROJECT_IS_TOP_LEVEL)
 endif()
 
 # Where ccache is there, objects are kept from build to build, and serve builds of the same tree in other folders: paths below
-# the source are hashed as relative ones. With precompiled headers it needs to be told so.
+# the source are hashed as relative ones. With precompiled headers it needs to be set so.
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   find_program(ARCSLIP_CCACHE ccache)
   mark_as_advanced(ARCSLIP_CCACHE)

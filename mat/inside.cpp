@@ -111,7 +111,7 @@ std::map<std::string, std::size_t> look_through(const char* path) {
   H5PLset_loading_state(0);
   std::map<std::string, std::size_t> longest;
   const Handle file(H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!file) return longest;  // matio tells
+  if (!file) return longest;  // matio reports
   Links links;
   H5Literate(file.id(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, take, &links);
   check(links);

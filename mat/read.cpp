@@ -62,9 +62,9 @@ class Reader {
     if (!file) fail("found no MATLAB file of version 5 or 7.3 that can be read; it may be damaged");
     const Variable variable = find(file.get());
     if (!variable) return;
-    told_ = variable->name;
+    reported_ = variable->name;
     check_type(*variable);
-    if (const auto known = longest.find(told_);
+    if (const auto known = longest.find(reported_);
         known != longest.end() && variable->class_type == MAT_C_SPARSE)
       check_entries(known->second);
     if (Mat_VarReadDataAll(file.get(), variable.get()) != 0 || variable->data == nullptr)
@@ -76,7 +76,7 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& cause) const { throw Fault(cause, told_); }
+  [[noreturn]] void fail(const std::string& cause) const { throw Fault(cause, reported_); }
   [[noreturn]] void tell_damage(const std::string& what) const {
     fail("found " + what + "; the file may be damaged");
   }
@@ -137,7 +137,7 @@ class Reader {
                       of.data_type != MAT_T_DOUBLE))
       tell_damage("fewer entries than the " + std::to_string(count) + " that its columns have");
     check_entries(count);
-    write_matrix(told_, {of.dims[0], columns, count});
+    write_matrix(reported_, {of.dims[0], columns, count});
     write(std::span<const std::uint32_t>(from.jc, columns + 1));
     write(std::span<const std::uint32_t>(from.ir, count));
     write(std::span(static_cast<const double*>(from.data), count));
@@ -152,7 +152,7 @@ class Reader {
     const auto is_entry = [](double value) { return value != 0; };
     const auto count = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_entry));
     check_entries(count);
-    write_matrix(told_, {rows, columns, count});
+    write_matrix(reported_, {rows, columns, count});
     std::uint32_t start = 0;
     write_each<std::uint32_t>(columns + 1, [&](std::size_t j, auto& to) {
       if (j > 0) {
@@ -183,7 +183,7 @@ class Reader {
   const char* path_;
   std::size_t bytes_;
   const std::string& name_;
-  std::string told_;
+  std::string reported_;
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace {
 using namespace scene::file;
 using scene::Key;
 using scene::KeyType;
-using scene::Taken;
+using scene::ParameterUse;
 
 constexpr int largest_search = 100'000'000;  // evaluations, and other whole numbers of a search
 
@@ -93,26 +93,26 @@ void drop_from(std::string_view parameter, OptimumProblem& problem) {
 
 void read_along(const Reading& reading, OptimumSettings& settings) {
   const Location place = reading.keys.find("along");
-  for (const std::string& key : scene::keys_beside(KeyType::followed))
+  for (const std::string& key : scene::keys_next_to(KeyType::followed))
     if (place.node == nullptr && reading.keys.has(key))
       reading.faults.add(reading.keys.find(key).pointer, "found the key " + scene::file::quoted(key) +
                                                              " without \"along\", whose range it belongs to");
   if (place.node == nullptr) return;
   DesignVariable along;
   const scene::Field field = read_parameter(place, reading.parameters, along.name, reading.faults);
-  std::vector<std::string> beside;
+  std::vector<std::string> nearby;
   for (const char* key : {"constraints", "cases", "scatter"}) {
     const Location other = reading.keys.find(key);
     const auto* list = other.node != nullptr ? other.node->get<Node::List>() : nullptr;
     const auto* object = other.node != nullptr ? other.node->get<Node::Object>() : nullptr;
     if ((list != nullptr && !list->empty()) || (object != nullptr && !object->empty()))
-      beside.emplace_back(key);
+      nearby.emplace_back(key);
   }
-  if (!beside.empty())
-    reading.faults.add(place.pointer, "found \"along\" together with " + listed(beside) +
+  if (!nearby.empty())
+    reading.faults.add(place.pointer, "found \"along\" together with " + listed(nearby) +
                                           ", which it does not support; must be given alone");
   const bool is_other =
-      !beside.empty() || is_taken(along.name, place.pointer, taken(settings.problem), reading.faults);
+      !nearby.empty() || is_taken(along.name, place.pointer, taken(settings.problem), reading.faults);
   std::tie(along.lower, along.upper) = read_range(reading, field);
   if (!is_other) settings.along = std::move(along);
 }
@@ -161,8 +161,8 @@ KeysOf<OptimumSettings> keys() {
                                     bounds_schema)},
                        read_design,
                        write_design,
-                       [](const OptimumProblem& problem, std::vector<Taken>& all) {
-                         for (Taken& each : taken(problem)) all.push_back(std::move(each));
+                       [](const OptimumProblem& problem, std::vector<ParameterUse>& all) {
+                         for (ParameterUse& each : taken(problem)) all.push_back(std::move(each));
                        },
                        drop_from}));
   keys.add(of_problem(window(&OptimumProblem::frequency_from, &OptimumProblem::frequency_to)));
@@ -220,7 +220,7 @@ KeysOf<OptimumSettings> keys() {
               to.push_back({"from", node(settings.along->lower)});
               to.push_back({"to", node(settings.along->upper)});
             },
-            [](const S& settings, std::vector<Taken>& all) {
+            [](const S& settings, std::vector<ParameterUse>& all) {
               if (settings.along) all.push_back({settings.along->name, "which the study goes \"along\""});
             }});
   keys.check([](const Reading& reading, S& settings) { check_criterion(reading, settings.problem); });
@@ -294,8 +294,8 @@ std::string_view name(Criterion criterion) {
   return criterion == Criterion::worst ? "worst" : "mean";
 }
 
-std::vector<Taken> taken(const OptimumProblem& problem) {
-  std::vector<Taken> all;
+std::vector<ParameterUse> taken(const OptimumProblem& problem) {
+  std::vector<ParameterUse> all;
   for (const DesignVariable& variable : problem.over)
     all.push_back({variable.name, "which the study is \"over\""});
   for (const LoadCase& each : problem.cases)

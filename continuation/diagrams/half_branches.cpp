@@ -11,11 +11,11 @@ namespace {
 
 constexpr double longest_entry = 1e-3, shortest_entry = 1e-6;  // h, relative to 1 + |u|
 constexpr double entry_reduction = 0.25;                       // of the step, until it is on the half-branch
-constexpr double entry_error = 0.25;     // of the distance to the nearest other half-branch
-constexpr double entry_turn = 0.3;       // of the angle to it
-constexpr double beside_segment = 0.05;  // of a segment, beyond its ends: still beside it
-constexpr double same_point = 1e-2;      // of h
-constexpr int oblique_probes = 8;        // directions in which pieces are searched for
+constexpr double entry_error = 0.25;   // of the distance to the nearest other half-branch
+constexpr double entry_turn = 0.3;     // of the angle to it
+constexpr double near_segment = 0.05;  // of a segment, beyond its ends: still next to it
+constexpr double same_point = 1e-2;    // of h
+constexpr int oblique_probes = 8;      // directions in which pieces are searched for
 
 }  // namespace
 
@@ -106,9 +106,9 @@ int DiagramTracer::known_branch(const Vector& v, const Vector& tangent, double s
       const double length = std::sqrt(with_->dot(chord, chord));
       if (!(length > 0)) continue;
       const double share = with_->dot(v - from, chord) / (length * length);
-      if (!(share >= -beside_segment && share <= 1 + beside_segment)) continue;
+      if (!(share >= -near_segment && share <= 1 + near_segment)) continue;
       hermite(from, points[i].tangent, to, points[i + 1].tangent, length, share, near);
-      if (distance(*with_, near, v) > beside_segment * length) continue;
+      if (distance(*with_, near, v) > near_segment * length) continue;
       const Vector slope = 6 * share * (1 - share) * chord / length +
                            (1 - share) * (1 - 3 * share) * points[i].tangent +
                            share * (3 * share - 2) * points[i + 1].tangent;

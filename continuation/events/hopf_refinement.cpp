@@ -202,15 +202,15 @@ class HopfRefinement {
     const double length = t.head(n_).cwiseQuotient(scales_).norm();
     const double size = 1 + x_.head(n_).cwiseQuotient(scales_).norm();
     const double h = std::sqrt(difference_step) * size / std::max(length, 1.0);
-    std::array<Complex, 2> beside;
+    std::array<Complex, 2> nearby;
     const auto found = difference_within_piece(h, [&](std::size_t i, double distance) {
       if (!move_to(x_ + distance * t, Needs::jacobian) || now_.at.piece() != piece_) return false;
       to_dense(now_.at.jacobian(), J_);
-      beside[i] = left_.dot(J_.cast<Complex>() * right_);
+      nearby[i] = left_.dot(J_.cast<Complex>() * right_);
       return true;
     });
     if (!found) return false;
-    mu_rate_ = (found->here * mu_ * overlap_ + found->weight[0] * beside[0] + found->weight[1] * beside[1]) /
+    mu_rate_ = (found->here * mu_ * overlap_ + found->weight[0] * nearby[0] + found->weight[1] * nearby[1]) /
                overlap_;
     return std::isfinite(std::abs(mu_rate_));
   }

@@ -69,20 +69,20 @@ std::optional<Vector> second_along(const Accepted& now, const Vector& v) try {
   const std::uint64_t piece = now.at.piece();
   const Eigen::Index n = v.size();
   Vector here(n), u(n);
-  std::array<Vector, 2> beside{Vector(n), Vector(n)};
+  std::array<Vector, 2> nearby{Vector(n), Vector(n)};
   apply(now.at.jacobian(), v, here);
   const auto quotient = difference_within_piece(step_along(now.u, v), [&](std::size_t i, double distance) {
     try {
       u = now.u + distance * v;
       if (now.at.move_to(u, now.p, Needs::jacobian) != Evaluated::ok || now.at.piece() != piece) return false;
-      apply(now.at.jacobian(), v, beside[i]);
+      apply(now.at.jacobian(), v, nearby[i]);
       return true;
     } catch (const std::exception&) {
       return false;
     }
   });
   if (!quotient) return {};
-  return quotient->here * here + quotient->weight[0] * beside[0] + quotient->weight[1] * beside[1];
+  return quotient->here * here + quotient->weight[0] * nearby[0] + quotient->weight[1] * nearby[1];
 } catch (const std::exception&) {  // outside the domain, as it says
   return {};
 }

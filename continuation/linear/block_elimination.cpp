@@ -17,12 +17,12 @@
 // Iterative solvers, with e their tolerance, take a few more sweeps.
 //
 // For the same reason a J that is singular to the last bit, or which its solver refuses, throws at or does
-// not really solve with, is replaced by one next to it (beside_singular.hpp): E is then larger than rounding,
+// not really solve with, is replaced by one next to it (near_singular.hpp): E is then larger than rounding,
 // and refinement, which goes by J, reduces the error by |E| in each sweep.
 
-#include <arcslip/continuation/linear/beside_singular.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>
+#include <arcslip/continuation/linear/near_singular.hpp>
 #include <arcslip/continuation/linear/refinement.hpp>
 
 #include <cmath>
@@ -35,7 +35,7 @@ namespace arcslip::continuation {
 namespace {
 
 // Of a generic right-hand side, left by a solution: more, and the bordered matrix is singular itself.
-constexpr double largest_residual_beside = 1e-5;
+constexpr double largest_residual_nearby = 1e-5;
 
 class BlockElimination final : public LinearSolver {
  public:
@@ -48,7 +48,7 @@ class BlockElimination final : public LinearSolver {
   const char* name() const override { return name_.c_str(); }
 
   bool factorize(const Jacobian& J, const Borders& borders) override {
-    ready_ = beside_tried_ = false;
+    ready_ = near_tried_ = false;
     J_ = J;  // a copy: refinement needs it after the evaluator has moved
     borders_ = borders;
     const Eigen::Index n = borders.columns.rows(), m = borders.width();
@@ -63,7 +63,7 @@ class BlockElimination final : public LinearSolver {
     } catch (const std::exception&) {
       thrown = std::current_exception();
     }
-    if (works_beside()) return true;
+    if (works_nearby()) return true;
     if (thrown) std::rethrow_exception(thrown);
     return false;
   }
@@ -75,8 +75,8 @@ class BlockElimination final : public LinearSolver {
     } catch (const std::exception&) {
       thrown = std::current_exception();
     }
-    if (ready_ && !beside_tried_) {
-      if (works_beside() && refine(x, false)) return;
+    if (ready_ && !near_tried_) {
+      if (works_nearby() && refine(x, false)) return;
       if (!ready_) returns_to_J();
     }
     if (thrown) std::rethrow_exception(thrown);
@@ -122,12 +122,12 @@ class BlockElimination final : public LinearSolver {
   }
 
   // The same with a J next to that which the solver refuses. Of an operator there is none: the factors stay.
-  bool works_beside() const {
-    beside_tried_ = true;
+  bool works_nearby() const {
+    near_tried_ = true;
     for (const Nudge& nudge : nudges) {
       try {
-        if (!nudged(J_, nudge, beside_)) return false;
-        ready_ = takes(beside_) && eliminate_columns();
+        if (!nudged(J_, nudge, nearby_)) return false;
+        ready_ = takes(nearby_) && eliminate_columns();
         if (ready_ && is_regular()) return true;
       } catch (const std::exception&) {  // it throws here as well
       }
@@ -156,7 +156,7 @@ class BlockElimination final : public LinearSolver {
     apply(J_, solution_.head(n), image_.head(n));
     add_borders(solution_, false, image_);
     image_ = (image_ - generic_).cwiseQuotient(generic_);
-    return image_.lpNorm<Eigen::Infinity>() <= largest_residual_beside;
+    return image_.lpNorm<Eigen::Infinity>() <= largest_residual_nearby;
   }
 
   static double generic_sign(Eigen::Index i) {
@@ -269,10 +269,10 @@ class BlockElimination final : public LinearSolver {
   Borders borders_{0, 0};
   Vector row_sums_, column_sums_;
   // Of J, or of what is next to it, where a solve is the first to tell that J is singular.
-  mutable Jacobian beside_;
+  mutable Jacobian nearby_;
   mutable Matrix V_, S_;
   mutable LU<double> lu_;
-  mutable bool ready_ = false, beside_tried_ = false;
+  mutable bool ready_ = false, near_tried_ = false;
   mutable int sign_of_S_ = 1;
   mutable Refinement refinement_;
   mutable Vector w_, y_, generic_, solution_, image_;

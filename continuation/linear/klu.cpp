@@ -59,7 +59,7 @@ class BorderedSparse {
   Vector scales_, column_scales_, row_sums_, column_sums_;
 };
 
-constexpr double border_power = -5;  // of n: the size of [R D] beside [J C]
+constexpr double border_power = -5;  // of n: the size of [R D] next to [J C]
 
 double power_of_two(double largest) {
   return largest > 0 && std::isfinite(largest) ? std::ldexp(1.0, -std::ilogb(largest)) : 1.0;

@@ -8,7 +8,7 @@
 //
 // Which way each went is noted, in the order of the calls, and all of them together are the smooth piece of
 // F. Kept, they continue that piece beyond its ends: F, its derivatives and its piece always belong together,
-// and differences beside a kink are central ones of a smooth function.
+// and differences next to a kink are central ones of a smooth function.
 //
 // F has to be continuous where a choice changes. Calls that depend on others, as of a contact that only one
 // of two sides has, may depend on choices alone.

@@ -43,7 +43,7 @@ class FunctionEvaluator final : public Evaluator, private Operator {
         u_(f_->size),
         p_(parameters_->size()),
         F_(f_->size),
-        beside_{Vector(f_->size), Vector(f_->size)},
+        nearby_{Vector(f_->size), Vector(f_->size)},
         dF_(f_->size),
         search_(f_->size) {
     if (f_->sparse_jacobian || f_->choosing.sparse_jacobian)
@@ -147,7 +147,7 @@ class FunctionEvaluator final : public Evaluator, private Operator {
   }
 
   // The piece that differences at the point stay in. None without `piece`, or where it throws: what it throws
-  // is told by piece().
+  // is determined by piece().
   std::optional<std::uint64_t> piece_of_differences() const {
     if (!f_->piece) return {};
     try {
@@ -182,8 +182,8 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     if (!quotient.central() || p == 0) return false;
     const double largest_bend = std::min(1e-4, 3e-8 * p / quotient.distance[0]);
     for (Eigen::Index i = 0; i < F_.size(); ++i)
-      if (!(std::abs((beside_[0][i] - F_[i]) + (beside_[1][i] - F_[i])) <=
-            largest_bend * std::abs(beside_[0][i] - beside_[1][i])))
+      if (!(std::abs((nearby_[0][i] - F_[i]) + (nearby_[1][i] - F_[i])) <=
+            largest_bend * std::abs(nearby_[0][i] - nearby_[1][i])))
         return false;
     return true;
   }
@@ -202,8 +202,8 @@ class FunctionEvaluator final : public Evaluator, private Operator {
       choices_.keep();
       try {
         if (!within || f_->piece(u_, p_) == *here) {
-          residual_at_point(beside_[i]);
-          usable = beside_[i].allFinite();
+          residual_at_point(nearby_[i]);
+          usable = nearby_[i].allFinite();
         }
       } catch (...) {
         thrown = std::current_exception();
@@ -218,9 +218,9 @@ class FunctionEvaluator final : public Evaluator, private Operator {
       if (thrown) std::rethrow_exception(thrown);
       dF.setConstant(std::numeric_limits<double>::quiet_NaN());
     } else if (quotient->central()) {
-      dF = (beside_[0] - beside_[1]) / (2 * quotient->distance[0]);
+      dF = (nearby_[0] - nearby_[1]) / (2 * quotient->distance[0]);
     } else {
-      dF = quotient->weight[0] * (beside_[0] - F_) + quotient->weight[1] * (beside_[1] - F_);
+      dF = quotient->weight[0] * (nearby_[0] - F_) + quotient->weight[1] * (nearby_[1] - F_);
     }
     return quotient;
   }
@@ -230,7 +230,7 @@ class FunctionEvaluator final : public Evaluator, private Operator {
   mutable Vector u_, p_;
   Vector u_of_J_, p_of_J_;  // the point of the operator, fixed while residuals are evaluated elsewhere
   Vector F_;
-  mutable std::array<Vector, 2> beside_;
+  mutable std::array<Vector, 2> nearby_;
   mutable Vector dF_;
   mutable Choices choices_;
   mutable StepSearch search_;

@@ -10,7 +10,7 @@
 //                                .sparse_jacobian = jacobian});
 //
 // Derivatives that are not given are approximated by central differences, within the smooth piece of F:
-// beside a kink by one-sided ones. The step of unknown i is 6e-6 max(|u_i|, scale_i). That of a parameter is
+// next to a kink by one-sided ones. The step of unknown i is 6e-6 max(|u_i|, scale_i). That of a parameter is
 // 6e-6 max(|p|, scale), where the two are within a factor of 10 or F hardly bends over it. Where it may, as
 // at p = 1e-6 of a window to 1e6, or at p = 0, steps 1/32 as long follow, down to 6e-6 min(|p|, scale)
 // or 1e-12 of the first at p = 0, until two agree to 1e-8; each row of F takes its own (step_search.hpp). The

@@ -35,7 +35,7 @@ JacobianError check_jacobian(const Problem& problem, In u, In p) {
                                 std::to_string(p.size()) + " parameters, the problem has " +
                                 std::to_string(n) + " and " + std::to_string(parameters.size()));
   const Vector scales = problem.scales();
-  const auto here = problem.evaluator(), beside = problem.evaluator();
+  const auto here = problem.evaluator(), nearby = problem.evaluator();
   JacobianError worst;
   if (here->move_to(u, p, Needs::jacobian) != Evaluated::ok) return worst;
   Vector at_u = u, at_p = p, column(n), plus(n), unit = Vector::Zero(n);
@@ -45,23 +45,23 @@ JacobianError check_jacobian(const Problem& problem, In u, In p) {
     const double at = x, h = difference_step * std::max(std::abs(at), scale);
     x = at + h;
     bool usable =
-        beside->move_to(at_u, at_p, Needs::residual) == Evaluated::ok && beside->piece() == here->piece();
-    plus = beside->residual();
+        nearby->move_to(at_u, at_p, Needs::residual) == Evaluated::ok && nearby->piece() == here->piece();
+    plus = nearby->residual();
     x = at - h;
-    usable = usable && beside->move_to(at_u, at_p, Needs::residual) == Evaluated::ok &&
-             beside->piece() == here->piece();
+    usable = usable && nearby->move_to(at_u, at_p, Needs::residual) == Evaluated::ok &&
+             nearby->piece() == here->piece();
     x = at;
     if (!usable) return;
-    const Vector difference = (plus - beside->residual()) / (2 * h);
+    const Vector difference = (plus - nearby->residual()) / (2 * h);
     // Differences of another step size show the accuracy.
     x = at + wider * h;
-    if (beside->move_to(at_u, at_p, Needs::residual) == Evaluated::ok) plus = beside->residual();
+    if (nearby->move_to(at_u, at_p, Needs::residual) == Evaluated::ok) plus = nearby->residual();
     x = at - wider * h;
-    if (beside->move_to(at_u, at_p, Needs::residual) == Evaluated::ok) plus -= beside->residual();
+    if (nearby->move_to(at_u, at_p, Needs::residual) == Evaluated::ok) plus -= nearby->residual();
     x = at;
     const double doubt = (plus / (2 * wider * h) - difference).cwiseAbs().maxCoeff();
     const double size = std::max(difference.cwiseAbs().maxCoeff(), column.cwiseAbs().maxCoeff()) +
-                        rounding / h + (beside->piece() == here->piece() ? doubt : 0.0) / agreement;
+                        rounding / h + (nearby->piece() == here->piece() ? doubt : 0.0) / agreement;
     if (size == 0) return;
     Eigen::Index row = 0;
     const double relative = (difference - column).cwiseAbs().maxCoeff(&row) / size;
@@ -119,7 +119,7 @@ class Doubt {
         n_(problem.size()),
         free_(free),
         here_(problem.evaluator()),
-        beside_(problem.evaluator()),
+        nearby_(problem.evaluator()),
         u_(u),
         p_(p),
         at_u_(u),
@@ -134,7 +134,7 @@ class Doubt {
   JacobianError find() {
     if (here_->move_to(u_, p_, Needs::jacobian) != Evaluated::ok) return {};
     // The equations of a curve may depend on the first point that their evaluator sees, as by their borders.
-    if (beside_->move_to(u_, p_, Needs::residual) != Evaluated::ok) return {};
+    if (nearby_->move_to(u_, p_, Needs::residual) != Evaluated::ok) return {};
     here_->parameter_derivative(free_, F_p_);
     piece_ = here_->piece();
     const Vector scales = problem_.scales();
@@ -189,16 +189,16 @@ class Doubt {
     at_u_ = u_ + h * d.head(n_);
     at_p_[free_] = p_[free_] + h * d[n_];
     if (at_p_[free_] < parameter().lower || at_p_[free_] > parameter().upper) return false;
-    return beside_->move_to(at_u_, at_p_, Needs::residual) == Evaluated::ok &&
-           beside_->residual().size() == n_ && beside_->residual().allFinite() && beside_->piece() == piece_;
+    return nearby_->move_to(at_u_, at_p_, Needs::residual) == Evaluated::ok &&
+           nearby_->residual().size() == n_ && nearby_->residual().allFinite() && nearby_->piece() == piece_;
   }
 
   // F_d_, and bend_: how much the differences to the two sides differ. False: not within the piece.
   bool difference(const Vector& d, double h) {
     if (!look(d, h)) return false;
-    plus_ = beside_->residual();
+    plus_ = nearby_->residual();
     if (!look(d, -h)) return false;
-    const Vector& minus = beside_->residual();
+    const Vector& minus = nearby_->residual();
     F_d_ = (plus_ - minus) / (2 * h);
     rounding_ = (std::numeric_limits<double>::epsilon() / h) * plus_.cwiseAbs().cwiseMax(minus.cwiseAbs());
     bend_ = (plus_ + minus - 2 * here_->residual()).cwiseAbs() / h;
@@ -301,7 +301,7 @@ class Doubt {
   const Problem& problem_;
   Eigen::Index n_;
   int free_;
-  std::unique_ptr<Evaluator> here_, beside_;
+  std::unique_ptr<Evaluator> here_, nearby_;
   Vector u_, p_, at_u_, at_p_, F_p_, plus_, F_d_, bend_, rounding_, given_;
   std::uint64_t piece_ = 0;
   Eigen::Array<bool, Eigen::Dynamic, 1> agreed_;  // rows, with any difference

@@ -67,13 +67,13 @@ double rounding_of_beta(const Problem& problem, Vector p, int along, const Vecto
   const Eigen::Index n = x.size() - 1;
   const auto at = problem.evaluator();
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  Vector beside(n + 1), correction(n + 2);
+  Vector nearby(n + 1), correction(n + 2);
   for (int k = 0; k < displacements; ++k) {
     for (Eigen::Index i = 0; i <= n; ++i)
-      beside[i] = x[i] + rounding_displacement * std::sin(1.0 + 7.0 * static_cast<double>(i) + 3.0 * k) *
+      nearby[i] = x[i] + rounding_displacement * std::sin(1.0 + 7.0 * static_cast<double>(i) + 3.0 * k) *
                              std::max(std::abs(x[i]), 1e-3 * scale[i]);
-    p[along] = beside[n];
-    if (at->move_to(beside.head(n), p, Needs::residual) != Evaluated::ok) continue;
+    p[along] = nearby[n];
+    if (at->move_to(nearby.head(n), p, Needs::residual) != Evaluated::ok) continue;
     correction.setZero();
     correction.head(n) = at->residual();
     solver.solve(correction);

@@ -34,7 +34,7 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
       : definition_(std::move(definition)),
         n_(definition_->inner.size()),
         here_(definition_->inner),
-        beside_(definition_->inner),
+        nearby_(definition_->inner),
         factors_(definition_->inner),
         scale_(definition_->inner.scales()),
         border_(static_cast<int>(n_), 2),
@@ -91,7 +91,7 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
     here_.at().parameter_derivative(k, dR.head(n_));
     if (transposed_ && second_given_)
       dR.tail(2) = dg_dp_.row(k).transpose();
-    else if (beside_.over(here_, k))
+    else if (nearby_.over(here_, k))
       change_of_g(*factors_.now(), dR.tail(2));
     else
       dR.tail(2).setConstant(std::nan(""));
@@ -111,7 +111,7 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
       dg.noalias() = G_.transpose() * d;
     else if (d.norm() == 0)  // or below what can be squared
       dg.setZero();
-    else if (beside_.along(here_, d))
+    else if (nearby_.along(here_, d))
       change_of_g(M, dg);
     else
       dg.setConstant(std::nan(""));
@@ -176,9 +176,9 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
       second_given_ = second_given_ && here_.second_derivative(w, V_.col(j), G_.col(j), dp_);
       if (second_given_)
         dg_dp_.col(j) = -dp_;
-      else if (!beside_.along(here_, V_.col(j)))
+      else if (!nearby_.along(here_, V_.col(j)))
         G_.col(j).setConstant(std::nan(""));
-      else if (!beside_.transposed_derivative(w, G_.col(j)))
+      else if (!nearby_.transposed_derivative(w, G_.col(j)))
         return false;
       G_.col(j) *= -1;
     }
@@ -189,7 +189,7 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
   void change_of_g(const LinearSolver& M, Out dg) const {
     for (int j = 0; j < 2; ++j) {
       work_.tail(2).setZero();
-      beside_.derivative(V_.col(j), work_.head(n_));
+      nearby_.derivative(V_.col(j), work_.head(n_));
       M.solve(work_);
       dg[j] = -work_[n_ + 1];
     }
@@ -204,7 +204,7 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
   std::shared_ptr<const BranchPointDefinition> definition_;
   Eigen::Index n_;
   Site here_;
-  mutable Neighbours beside_;
+  mutable Neighbours nearby_;
   SharedFactors factors_;
   Vector scale_;
   Borders border_;              // of the last Jacobian

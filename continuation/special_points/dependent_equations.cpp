@@ -150,8 +150,8 @@ std::string doubt_of_branch_point(const Problem& problem, const Vector& v, const
     if (const double size = D.row(i).lpNorm<Eigen::Infinity>(); size > 0) D.row(i) /= size;
   const Vector values = singular_values(D.transpose()).values;
   if (!(values[n - 1] <= rank_lost * values[0])) return {};
-  return "; it is a branch point, where [J F_p] has a rank below n, and no tangent tells the branches that "
-         "cross apart: start beside it, at another value of the parameter, and let branch_point_monitor() "
+  return "; it is a branch point, where [J F_p] has a rank below n, and no tangent reports the branches that "
+         "cross apart: start next to it, at another value of the parameter, and let branch_point_monitor() "
          "find it";
 } catch (const std::exception&) {
   return {};

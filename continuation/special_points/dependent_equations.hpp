@@ -13,7 +13,7 @@ namespace arcslip::continuation {
 /// none, or if F cannot be evaluated there.
 std::string doubt_of_dependence(const Problem& problem, const Vector& v, const Vector& p, int along);
 
-/// A sentence if [J F_p] has a rank below n at v: at a branch point no tangent tells the branches apart.
+/// A sentence if [J F_p] has a rank below n at v: at a branch point no tangent reports the branches apart.
 std::string doubt_of_branch_point(const Problem& problem, const Vector& v, const Vector& p, int along);
 
 }  // namespace arcslip::continuation

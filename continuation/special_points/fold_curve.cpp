@@ -31,7 +31,7 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
       : inner_(std::move(inner)),
         n_(inner_->size()),
         here_(*inner_),
-        beside_(*inner_),
+        nearby_(*inner_),
         factors_(*inner_),
         scale_(inner_->scales()),
         borders_(static_cast<int>(n_), 1),
@@ -81,9 +81,9 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
     }
     here_.at().parameter_derivative(k, dR.head(n_));
     if (!transposed_)
-      dR[n_] = beside_.over(here_, k) ? change_of_g(*factors_.now()) : std::nan("");
+      dR[n_] = nearby_.over(here_, k) ? change_of_g(*factors_.now()) : std::nan("");
     else
-      dR[n_] = given_ ? g_p_[k] : -beside_.parameter_derivative(z_.head(n_), k);
+      dR[n_] = given_ ? g_p_[k] : -nearby_.parameter_derivative(z_.head(n_), k);
   }
 
   std::uint64_t piece() const override { return here_.at().piece(); }
@@ -100,7 +100,7 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
 
   // The derivative of g along d, n + 1, by a forward solve with M.
   double along(In d, const LinearSolver& M) const try {
-    return beside_.along(here_, d) ? change_of_g(M) : std::nan("");
+    return nearby_.along(here_, d) ? change_of_g(M) : std::nan("");
   } catch (const std::exception&) {
     return std::nan("");
   }
@@ -182,11 +182,11 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
     const auto w = z_.head(n_);
     given_ = here_.second_derivative(w, v_, g_x_, g_p_);
     if (!given_) {
-      if (!beside_.along(here_, v_)) {
+      if (!nearby_.along(here_, v_)) {
         g_x_.setConstant(std::nan(""));
         return true;
       }
-      if (!beside_.transposed_derivative(w, g_x_)) return false;
+      if (!nearby_.transposed_derivative(w, g_x_)) return false;
     }
     g_x_ = -g_x_;
     g_p_ = -g_p_;
@@ -195,7 +195,7 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
 
   // The last entry of -M^-1 (dJ v, 0), at the neighbouring points.
   double change_of_g(const LinearSolver& M) const {
-    beside_.derivative(v_, work_.head(n_));
+    nearby_.derivative(v_, work_.head(n_));
     work_[n_] = 0;
     M.solve(work_);
     return -orientation_ * work_[n_];
@@ -216,7 +216,7 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
   std::shared_ptr<const InnerProblem> inner_;
   Eigen::Index n_;
   Site here_;
-  mutable Neighbours beside_;
+  mutable Neighbours nearby_;
   SharedFactors factors_;
   Vector scale_;
   Borders borders_;
@@ -229,7 +229,7 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
   Jacobian jacobian_;
 };
 
-// x = M^-1 (y, 0) + kappa (v, 0) - (M^-1 (F_pa, 0) - e) dp_a - M^-1 (C, 0) mu, of which the entry beside v
+// x = M^-1 (y, 0) + kappa (v, 0) - (M^-1 (F_pa, 0) - e) dp_a - M^-1 (C, 0) mu, of which the entry next to v
 // has to vanish, leaves two equations more than there are borders.
 class FoldSolver final : public LinearSolver {
  public:

@@ -78,7 +78,7 @@ class HopfEvaluator final : public Evaluator {
         n_(inner_->size()),
         parameters_(static_cast<Eigen::Index>(inner_->problem->parameters().size())),
         here_(*inner_),
-        beside_(*inner_),
+        nearby_(*inner_),
         R_(n_ + 2),
         v_(Vector::Zero(n_ + 1)),
         dx_(n_ + 1),
@@ -131,11 +131,11 @@ class HopfEvaluator final : public Evaluator {
       for (Eigen::Index j = 0; j < 2; ++j) {
         if (!here_.second_derivative(pair_.W.col(j), v_, dx_, dp_)) {
           given_ = false;
-          if (!moved && !beside_.along(here_, v_)) return false;
+          if (!moved && !nearby_.along(here_, v_)) return false;
           moved = true;
-          beside_.transposed_derivative(pair_.W.col(j), dx_);
+          nearby_.transposed_derivative(pair_.W.col(j), dx_);
           for (Eigen::Index k = 0; k < parameters_; ++k)
-            dp_[k] = beside_.parameter_derivative(pair_.W.col(j), static_cast<int>(k));
+            dp_[k] = nearby_.parameter_derivative(pair_.W.col(j), static_cast<int>(k));
         }
         if (i == j) {
           by_x_.row(0) += dx_.transpose();
@@ -151,7 +151,7 @@ class HopfEvaluator final : public Evaluator {
   std::shared_ptr<const InnerProblem> inner_;
   Eigen::Index n_, parameters_;
   Site here_;
-  Neighbours beside_;
+  Neighbours nearby_;
   Vector R_, v_, dx_, dp_;
   Matrix by_x_, by_p_;  // derivatives of sigma and pi
   Matrix J_;

@@ -34,7 +34,7 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
       : definition_(std::move(definition)),
         n_(definition_->inner.size()),
         here_(definition_->inner),
-        beside_(definition_->inner),
+        nearby_(definition_->inner),
         factors_(definition_->inner),
         scale_(definition_->inner.scales()),
         border_(static_cast<int>(n_), 1),
@@ -85,7 +85,7 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
     }
     here_.at().parameter_derivative(k, dR.head(n_));
     if (!transposed_)
-      dR[n_] = beside_.over(here_, k) ? change_of_G(*factors_.now()) : std::nan("");
+      dR[n_] = nearby_.over(here_, k) ? change_of_G(*factors_.now()) : std::nan("");
     else
       dR[n_] = by_symmetry(k);
   }
@@ -104,7 +104,7 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
 
   // Directional derivative of G in x, by a forward solve with B.
   double along(In d, const LinearSolver& B) const try {
-    return beside_.along(here_, d) ? change_of_G(B) : std::nan("");
+    return nearby_.along(here_, d) ? change_of_G(B) : std::nan("");
   } catch (const std::exception&) {
     return std::nan("");
   }
@@ -137,11 +137,11 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
     const auto w = z_.head(n_);
     F_given_ = here_.second_derivative(w, t_, G_x_, G_p_);
     q_given_ = static_cast<bool>(definition_->quantity.second_derivative);
-    if (!(F_given_ && q_given_) && !beside_.along(here_, t_)) {
+    if (!(F_given_ && q_given_) && !nearby_.along(here_, t_)) {
       G_x_.setConstant(std::nan(""));
       return true;
     }
-    if (!F_given_ && !beside_.transposed_derivative(w, G_x_)) return false;
+    if (!F_given_ && !nearby_.transposed_derivative(w, G_x_)) return false;
     G_x_ = -G_x_;
     G_p_ = -G_p_;
     if (q_given_) {
@@ -151,7 +151,7 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
       work_[n_] = dp_[definition_->inner.along];
       G_x_ += work_;
     } else {
-      beside_.sum([&](const Site& place, double weight) {
+      nearby_.sum([&](const Site& place, double weight) {
         definition_->gradient(place, work_);
         G_x_ += weight * work_;
       });
@@ -160,22 +160,22 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
   }
 
   double by_symmetry(int k) const {
-    double result = F_given_ ? G_p_[k] : -beside_.parameter_derivative(z_.head(n_), k);
+    double result = F_given_ ? G_p_[k] : -nearby_.parameter_derivative(z_.head(n_), k);
     if (q_given_)
       result += dp_[k];
     else
-      beside_.sum(
+      nearby_.sum(
           [&](const Site& place, double weight) { result += weight * definition_->derivative(place, k); });
     return result;
   }
 
   // d(dq/dx) . t - dq/dx . B^-1 (dA t, 0), at the neighbouring points.
   double change_of_G(const LinearSolver& B) const {
-    beside_.derivative(t_, work_.head(n_));
+    nearby_.derivative(t_, work_.head(n_));
     work_[n_] = 0;
     B.solve(work_);
     double result = -q_x_.dot(work_);
-    beside_.sum([&](const Site& place, double weight) {
+    nearby_.sum([&](const Site& place, double weight) {
       definition_->gradient(place, change_);
       result += weight * change_.dot(t_);
     });
@@ -190,7 +190,7 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
   std::shared_ptr<const StationaryDefinition> definition_;
   Eigen::Index n_;
   Site here_;
-  mutable Neighbours beside_;
+  mutable Neighbours nearby_;
   SharedFactors factors_;
   Vector scale_;
   Borders border_;

@@ -60,7 +60,7 @@ class ZeroEvaluator final : public Evaluator, public Operator {
         m_(1 + definition_->further()),
         g_of_(definition_->functions.make()),
         here_(*definition_),
-        beside_{Place(*definition_), Place(*definition_)},
+        nearby_{Place(*definition_), Place(*definition_)},
         factors_(definition_->inner),
         scales_(n_ + m_),
         border_(static_cast<int>(n_), 1),
@@ -73,7 +73,7 @@ class ZeroEvaluator final : public Evaluator, public Operator {
         p_(definition_->inner.problem->parameters().size()),
         q_(p_.size()),
         g_(m_),
-        g_beside_{Vector(m_), Vector(m_)},
+        g_nearby_{Vector(m_), Vector(m_)},
         jacobian_(static_cast<const Operator*>(this)) {
     scales_ << definition_->inner.scales(), definition_->functions.scales;
     // A generic border row until there is a tangent, orthogonal to it by no symmetry.
@@ -138,11 +138,11 @@ class ZeroEvaluator final : public Evaluator, public Operator {
   void difference(double h, Move&& move, Out dg) const {
     const auto go = [&](std::size_t i, double distance) {
       move(distance);
-      Place& place = beside_[i];
+      Place& place = nearby_[i];
       try {
         return place.move_to(y_, q_, Needs::residual) == Evaluated::ok &&
                place.at().piece() == here_.at().piece() &&
-               g_of_(place.at(), place.u(), place.p(), y_.tail(m_ - 1), g_beside_[i]);
+               g_of_(place.at(), place.u(), place.p(), y_.tail(m_ - 1), g_nearby_[i]);
       } catch (const std::exception&) {  // outside the domain, as it says
         return false;
       }
@@ -156,7 +156,7 @@ class ZeroEvaluator final : public Evaluator, public Operator {
       return;
     }
     dg = found->here * g_;
-    for (std::size_t i = 0; i < 2; ++i) dg += found->weight[i] * g_beside_[i];
+    for (std::size_t i = 0; i < 2; ++i) dg += found->weight[i] * g_nearby_[i];
   }
 
   // t at the point of here_.
@@ -189,7 +189,7 @@ class ZeroEvaluator final : public Evaluator, public Operator {
   Eigen::Index n_, m_;
   TestFunction g_of_;
   Place here_;
-  mutable std::array<Place, 2> beside_;
+  mutable std::array<Place, 2> nearby_;
   SharedFactors factors_;
   Vector scales_;
   Borders border_;
@@ -198,7 +198,7 @@ class ZeroEvaluator final : public Evaluator, public Operator {
   Vector p_;
   mutable Vector q_;
   Vector g_;
-  mutable std::array<Vector, 2> g_beside_;
+  mutable std::array<Vector, 2> g_nearby_;
   bool has_tangent_ = false;
   Jacobian jacobian_;
 };

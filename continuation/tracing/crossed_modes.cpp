@@ -17,7 +17,7 @@ constexpr double zero_mode = 1e-6;      // of a mode at the second point, in its
 constexpr double nearly_real = 1e-4;    // of an eigenvalue: double ones are split by rounding
 
 // The independent columns of `block`, orthonormalized against Q and each other.
-Matrix orthonormal_beside(const Matrix& Q, const Matrix& block) {
+Matrix orthonormal_nearby(const Matrix& Q, const Matrix& block) {
   Matrix result(block.rows(), 0);
   for (Eigen::Index j = 0; j < block.cols(); ++j) {
     Vector q = block.col(j);
@@ -104,9 +104,9 @@ bool ModeCounter::basis() {
       const auto x = static_cast<double>(i);
       block_(i, j) = std::sin((0.7 + 0.1 * static_cast<double>(j)) * x * x + 0.5 + static_cast<double>(j));
     }
-  block_ = orthonormal_beside(Q_, block_);
+  block_ = orthonormal_nearby(Q_, block_);
   if (!multiply(block_, image_)) return false;
-  block_ = orthonormal_beside(Q_, image_ - block_);
+  block_ = orthonormal_nearby(Q_, image_ - block_);
   while (Q_.cols() + block_.cols() <= all_modes && block_.cols() > 0) {
     if (!multiply(block_, image_)) return false;
     const Eigen::Index before = Q_.cols(), next = block_.cols();
@@ -116,7 +116,7 @@ bool ModeCounter::basis() {
     Y_.conservativeResize(Eigen::NoChange, before + next);
     Q_.rightCols(next) = block_;
     Y_.rightCols(next) = image_;
-    block_ = orthonormal_beside(Q_, beyond);
+    block_ = orthonormal_nearby(Q_, beyond);
   }
   return true;
 }
@@ -148,7 +148,7 @@ std::optional<CrossedModes> ModeCounter::between(const CurvePoint& from, const C
     const auto m = modes.values[i], a = at_first(i, i);
     if (m.imag() != 0 || !(a.real() > 0)) continue;
     const double bend = 4 * std::abs(m.real() - 0.5 * (a.real() + 1));
-    if (pair_safety * bend > 1 + a.real() + 2 * std::sqrt(a.real())) result.told = false;
+    if (pair_safety * bend > 1 + a.real() + 2 * std::sqrt(a.real())) result.reported = false;
   }
   return result;
 }

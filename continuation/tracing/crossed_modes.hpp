@@ -27,7 +27,7 @@ inline constexpr double pair_safety = 8;
 
 struct CrossedModes {
   int count = 0;
-  bool told = true;      // false: a mode is curved enough to cross zero and return
+  bool reported = true;  // false: a mode is curved enough to cross zero and return
   bool at_zero = false;  // a mode is zero to rounding at the second point, and has no sign there
 };
 

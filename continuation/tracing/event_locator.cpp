@@ -13,7 +13,7 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr double newton_share = 1e-2;   // the corrector's tolerance, of that on the branch
-constexpr double beside_event = 1e-7;   // of 1 + |u|: where the matrix is not singular, to describe an event
+constexpr double near_event = 1e-7;     // of 1 + |u|: where the matrix is not singular, to describe an event
 constexpr double smallest_kink = 1e-4;  // rad
 
 // An extremum between two points that is not searched for lies within the intersection of the tangents to the
@@ -127,7 +127,7 @@ void EventLocator::follow(std::size_t monitor, Find by, const CurvePoint& from, 
 
 std::optional<LocatedEvent> EventLocator::find(std::size_t monitor, const CurvePoint& from,
                                                const CurvePoint& to) {
-  return turns(from, to) ? locate_beside_kink(monitor, from, to) : locate(monitor, from, to);
+  return turns(from, to) ? locate_near_kink(monitor, from, to) : locate(monitor, from, to);
 }
 
 bool EventLocator::is_event(std::size_t monitor, const LocatedEvent& found) {
@@ -165,7 +165,7 @@ std::optional<Accepted> EventLocator::look_at(const CurvePoint& event) {
 // itself is singular.
 std::optional<Accepted> EventLocator::look_near(const CurvePoint& event) {
   if (auto now = look_at(event); now || from_crossing_) return now;
-  const double aside = beside_event * (1 + probe().norm_u(event.v));
+  const double aside = near_event * (1 + probe().norm_u(event.v));
   if (!probe().linearize(event.v + aside * event.tangent, probe().border_row(event.tangent)))
     return std::nullopt;
   if (!probe().move_to(event.v, Needs::jacobian)) return std::nullopt;
@@ -208,11 +208,11 @@ constexpr double beyond_kink = 1e-3;      // of the way from the kink to the nex
 constexpr double linearized_there = 1e-13;  // smaller corrections leave the factors of the solution
 constexpr double steepest = 1.5;            // rad: between the chord of a step and the branch on it
 constexpr double state_tolerance = 1e-10;   // relative, of u at an event
-constexpr int samples_beside = 4;           // of q on each side of an extremum, for its rounding
+constexpr int samples_nearby = 4;           // of q on each side of an extremum, for its rounding
 constexpr double sample_share = 1e-2;       // of the step, between them
 constexpr double spreads = 2;               // of the samples: more is not rounding
 constexpr double spreads_at_kink = 8;       // of two samples
-constexpr double beside_singular = 1e-6;    // of a section: places next to one with a singular matrix
+constexpr double near_singular = 1e-6;      // of a section: places next to one with a singular matrix
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
 // The value of a monitor at the share s of a section, corrected onto the branch from the cubic between its
@@ -310,10 +310,10 @@ class OnSection {
   // Where the linear solver fails on the place itself, as one that takes J alone where J is singular: the
   // means of two places next to it, which differ from what is there by the square of their distance.
   std::optional<double> between_neighbours(double s) {
-    if (!go_near(s - beside_singular)) return {};
+    if (!go_near(s - near_singular)) return {};
     const auto f = measure();
     const CurvePoint before = place_;
-    if (!f || !go_near(s + beside_singular) || place_.piece != before.piece) return {};
+    if (!f || !go_near(s + near_singular) || place_.piece != before.piece) return {};
     const auto g = measure();
     place_.v = 0.5 * (before.v + place_.v);
     place_.tangent += before.tangent;
@@ -343,9 +343,9 @@ class OnSection {
 
 // The rounding of a quantity next to its extremum at s: its spread over a part of the section in which it
 // hardly changes.
-double spread_beside(OnSection& value, double s, double extremum) {
+double spread_nearby(OnSection& value, double s, double extremum) {
   double lowest = extremum, highest = lowest;
-  for (int k = -samples_beside; k <= samples_beside && !value.failed(); ++k) {
+  for (int k = -samples_nearby; k <= samples_nearby && !value.failed(); ++k) {
     value(s + sample_share * k);
     const double q = value.quantity();
     lowest = std::min(lowest, q);
@@ -379,8 +379,8 @@ std::optional<LocatedEvent> EventLocator::at_kink(std::size_t monitor, const Cur
   return result;
 }
 
-std::optional<LocatedEvent> EventLocator::locate_beside_kink(std::size_t monitor, const CurvePoint& from,
-                                                             const CurvePoint& to) {
+std::optional<LocatedEvent> EventLocator::locate_near_kink(std::size_t monitor, const CurvePoint& from,
+                                                           const CurvePoint& to) {
   Corrector& probe = this->probe();
   CurvePoint kink;
   Correction correction;
@@ -428,7 +428,7 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Curv
   found.quantity = value.quantity();
   const double change = std::max(std::abs(a), std::abs(b)) * (to.arclength - from.arclength);
   if (change <= options_.newton.rounding_level * std::abs(found.quantity))
-    found.rounding = spread_beside(value, root.x, found.quantity);
+    found.rounding = spread_nearby(value, root.x, found.quantity);
   return found;
 }
 

@@ -86,8 +86,8 @@ class EventLocator {
                                               const CurvePoint& to);
   std::optional<LocatedEvent> at_kink(std::size_t monitor, const CurvePoint& kink, const CurvePoint& beyond);
   std::optional<LocatedEvent> locate(std::size_t monitor, const CurvePoint& from, const CurvePoint& to);
-  std::optional<LocatedEvent> locate_beside_kink(std::size_t monitor, const CurvePoint& from,
-                                                 const CurvePoint& to);
+  std::optional<LocatedEvent> locate_near_kink(std::size_t monitor, const CurvePoint& from,
+                                               const CurvePoint& to);
   std::optional<LocatedEvent> crossing_event(const CurvePoint& from, const CurvePoint& to, const Vector& x,
                                              BranchPoint&& branches);
   LocatedEvent nearer_end(std::size_t monitor, const CurvePoint& from, const CurvePoint& to) const;

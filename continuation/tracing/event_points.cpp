@@ -19,7 +19,7 @@ constexpr int most_kinks = 16;                        // in one step
 constexpr double just_beyond[] = {1e-9, 1e-6, 1e-3};  // of a step: distances to the far side of a kink
 constexpr double just_before = 1e-9;                  // of a step: distance to the near side of a kink,
 constexpr double beyond_its_error = 1e-11;            // and of |u|
-constexpr double beside_step = 0.1;                   // of a step: a branch point this close lies on it
+constexpr double near_step = 0.1;                     // of a step: a branch point this close lies on it
 constexpr double beyond_step = 1e-4;                  // tolerance beyond its ends, for rounding
 // Of a monitor's change over a step, and of the largest dp/ds for the type of a branch point: smaller values
 // count as zero.
@@ -32,11 +32,11 @@ std::optional<LocatedEvent> EventLocator::crossing_event(const CurvePoint& from,
                                                          const Vector& x, BranchPoint&& branches) {
   const double length = to.arclength - from.arclength;
   Corrector& probe = this->probe();
-  Vector beside(x.size());
+  Vector nearby(x.size());
   const double share = probe.dot(x - from.v, to.v - from.v) / (length * length);
   if (!(share > -beyond_step && share < 1 + beyond_step)) return std::nullopt;
-  hermite(from.v, from.tangent, to.v, to.tangent, length, share, beside);
-  if (distance(probe, beside, x) > beside_step * length) return std::nullopt;
+  hermite(from.v, from.tangent, to.v, to.tangent, length, share, nearby);
+  if (distance(probe, nearby, x) > near_step * length) return std::nullopt;
   LocatedEvent found;
   found.place = from;
   found.place.v = x;
@@ -50,12 +50,12 @@ std::optional<LocatedEvent> EventLocator::crossing_event(const CurvePoint& from,
 }
 
 std::optional<LocatedEvent> EventLocator::branch_point(const CurvePoint& from, const CurvePoint& to) {
-  Vector beside(from.v.size());
+  Vector nearby(from.v.size());
   for (const double guess : guess_shares) {
-    hermite(from.v, from.tangent, to.v, to.tangent, to.arclength - from.arclength, guess, beside);
+    hermite(from.v, from.tangent, to.v, to.tangent, to.arclength - from.arclength, guess, nearby);
     std::optional<BranchPointLocation> crossing;
     try {
-      crossing = locate_branch_point(problem_, p_, free_, beside, options_.linear_solver, options_.newton);
+      crossing = locate_branch_point(problem_, p_, free_, nearby, options_.linear_solver, options_.newton);
     } catch (const std::exception&) {  // a point that cannot be evaluated, for the corrector
     }
     if (!crossing) continue;
@@ -71,12 +71,12 @@ std::optional<LocatedEvent> EventLocator::multiple_point(const CurvePoint& from,
   const double length = to.arclength - from.arclength;
   Corrector& probe = this->probe();
   const Vector chord = to.v - from.v;
-  Vector beside(from.v.size());
+  Vector nearby(from.v.size());
   for (const double guess : guess_shares) {
-    hermite(from.v, from.tangent, to.v, to.tangent, length, guess, beside);
+    hermite(from.v, from.tangent, to.v, to.tangent, length, guess, nearby);
     std::optional<MultiplePoint> crossing;
     try {
-      crossing = locate_multiple_point(*problem_, p_, free_, beside, rank_loss, (1 + beside_step) * length,
+      crossing = locate_multiple_point(*problem_, p_, free_, nearby, rank_loss, (1 + near_step) * length,
                                        options_.linear_solver);
     } catch (const std::exception&) {
     }

@@ -219,7 +219,7 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::look_for_crossing() {
   const bool turned = changes_determinant(crossed);
   int modes = turned ? 1 : 0;
   if (crossed && (crossed->count % 2 == 1) == turned) modes = crossed->count;
-  if (crossed && modes == 0 && !crossed->told && !resolution_.stretch_is_short(pair_share)) {
+  if (crossed && modes == 0 && !crossed->reported && !resolution_.stretch_is_short(pair_share)) {
     resolution_.begin_stretch(trial_.length);
     return refuse(Rejected::branch_points, 2, 1, Outcome::unresolved);
   }

@@ -21,7 +21,7 @@ namespace arcslip::continuation {
 /// The end of the message of a stop where Newton's method hardly converges at a start without a tangent.
 inline constexpr const char* needs_tangent =
     ": at a fold p does not determine the direction, and a start needs a tangent (Start::tangent); at a "
-    "branch point start beside it";
+    "branch point start next to it";
 
 /// The start of a branch: an approximate solution u at the parameters p.
 struct Start {

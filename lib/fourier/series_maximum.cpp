@@ -44,7 +44,7 @@ double LargestValue::polished(In u, double theta) const {
 
 double LargestValue::of(In u) {
   samples_.noalias() = basis_ * u;
-  // The top beside sample k, from the parabola; 0 where there is none.
+  // The top next to sample k, from the parabola; 0 where there is none.
   const auto top = [&](Eigen::Index k, double& offset) {
     const double sign = samples_[k] < 0 ? -1 : 1;
     const double before = sign * sample(k - 1), at = sign * samples_[k], after = sign * sample(k + 1);

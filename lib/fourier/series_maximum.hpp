@@ -2,8 +2,8 @@
 // The maximum absolute value of a series over the period, without computing all reversals.
 //
 // 4 N + 16 samples in half a period lie at most pi/4 apart in the phase of the highest harmonic. The parabola
-// through a largest sample and its neighbours then misses the top beside it by less than 0.9 % of the largest
-// value (that of cos N theta is the worst), so that only tops within 2 % of the largest are polished.
+// through a largest sample and its neighbours then misses the top next to it by less than 0.9 % of the
+// largest value (that of cos N theta is the worst), so that only tops within 2 % of the largest are polished.
 
 #include <arcslip/fourier/series.hpp>
 

@@ -260,8 +260,8 @@ CornerSlopes CornerSides::slopes(In x, In p) {
 double CornerSides::slope(double side, int& direction) {
   const Eigen::Index n = problem_->size();
   const double none = std::numeric_limits<double>::quiet_NaN();
-  beside_ = u_ + side * side_distance * corner_size(*problem_, corner_, u_, p_) / dh_.squaredNorm() * dh_;
-  if (evaluator_->move_to(beside_, p_, Needs::jacobian) != Evaluated::ok) return none;
+  nearby_ = u_ + side * side_distance * corner_size(*problem_, corner_, u_, p_) / dh_.squaredNorm() * dh_;
+  if (evaluator_->move_to(nearby_, p_, Needs::jacobian) != Evaluated::ok) return none;
   evaluator_->parameter_derivative(model::frequency, border_.columns.col(0));
   border_.rows.col(0) = dh_;
   border_.corner(0, 0) = 0;
@@ -271,9 +271,9 @@ double CornerSides::slope(double side, int& direction) {
   solver_->solve(t_);
   direction = solver_->determinant_sign().value_or(1);
   t_ *= direction / t_.cwiseQuotient(scales_).norm();
-  quantity_.gradient(*evaluator_, beside_, p_, dq_);
+  quantity_.gradient(*evaluator_, nearby_, p_, dq_);
   return dq_.dot(t_.head(n)) +
-         quantity_.parameter_derivative(*evaluator_, beside_, p_, model::frequency) * t_[n];
+         quantity_.parameter_derivative(*evaluator_, nearby_, p_, model::frequency) * t_[n];
 }
 
 }  // namespace arcslip::hbm

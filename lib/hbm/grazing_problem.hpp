@@ -75,7 +75,7 @@ class CornerSides {
   std::unique_ptr<HbmEvaluator> evaluator_;
   std::unique_ptr<continuation::LinearSolver> solver_;
   continuation::Borders border_;
-  Vector u_, beside_, p_, dh_, dq_, t_, scales_;
+  Vector u_, nearby_, p_, dh_, dq_, t_, scales_;
 };
 
 }  // namespace arcslip::hbm

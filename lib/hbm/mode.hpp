@@ -14,7 +14,7 @@
 //
 // x_s: the static displacement. Unknowns (v, ln(omega/omega_0), zeta, l), in this order; the parameter is ln
 // A, A in m. In these all are of order 1 over any number of decades of A, and v, omega and zeta change
-// smoothly where the response is small beside the motion, or another of its reversals becomes the extreme.
+// smoothly where the response is small next to the motion, or another of its reversals becomes the extreme.
 
 #include <arcslip/fourier/reversals.hpp>
 #include <arcslip/hbm/problem.hpp>

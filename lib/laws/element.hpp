@@ -25,7 +25,7 @@ struct FrictionState {
   double open_share = 0;              // 0 to 1
   double load_max = 0, load_min = 0;  // of the normal load, N, where Law::has_normal_load()
   // What the mean force along the first direction may be, N: an interval where the slider sticks throughout
-  // (slider_offset.hpp). NaN: not told.
+  // (slider_offset.hpp). NaN: not reported.
   double mean_min = std::numeric_limits<double>::quiet_NaN(), mean_max = mean_min;
 };
 
@@ -76,7 +76,7 @@ class Element {
   }
 
   /// What its contact does at the last point: intervals that follow each other over one period, in any
-  /// representation that put_in_order() takes. Empty: not told.
+  /// representation that put_in_order() takes. Empty: not reported.
   virtual void contact(std::vector<ContactInterval>& intervals) const { intervals.clear(); }
 };
 

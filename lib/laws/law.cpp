@@ -31,7 +31,7 @@ std::optional<std::vector<Automaton>> Law::automata(Fields) const {
   return {};
 }
 
-bool LawType::wears(const scene::Settings& options) const {
+bool LawType::has_wear(const scene::Settings& options) const {
   return law(options)->dissipative();
 }
 

@@ -95,7 +95,7 @@ class LawType : public scene::PartType {
  public:
   /// The law with these options.
   virtual std::shared_ptr<const Law> law(const scene::Settings& options) const = 0;
-  bool wears(const scene::Settings& options) const override;
+  bool has_wear(const scene::Settings& options) const override;
 };
 
 class Law {
@@ -108,8 +108,8 @@ class Law {
   virtual bool antisymmetric() const = 0;
   /// Whether it sticks and slips: Element::friction().
   virtual bool has_contact() const { return false; }
-  /// Whether it tells what its contact does: Element::contact().
-  virtual bool tells_contact() const { return false; }
+  /// Whether it says what its contact does: Element::contact().
+  virtual bool reports_contact() const { return false; }
   /// Whether it has a normal load that varies, and may open.
   virtual bool has_normal_load() const { return false; }
   /// That load, N, at a displacement along the last direction, where there is one; monotonic.
@@ -122,7 +122,7 @@ class Law {
   /// Whether the force depends on velocities: Element::set_frequency(), StepEnd::v. Its memory may not.
   virtual bool rate_dependent() const { return false; }
   /// Whether its force at rest may be any within its limits, as of friction without a stiffness. Harmonic
-  /// balance tells motions that stop (Element::jump_over_bend()); in time it is refused.
+  /// balance reports motions that stop (Element::jump_over_bend()); in time it is refused.
   virtual bool set_valued() const { return false; }
   virtual Traits traits(Fields fields, int direction) const = 0;
   /// The largest |df/dq| while |q| stays within `reach`, N/m; finite.

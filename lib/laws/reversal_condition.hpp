@@ -1,5 +1,5 @@
 #pragma once
-// The equation w'(theta) = 0 of an angle by which a corner is told.
+// The equation w'(theta) = 0 of an angle by which a corner is reported.
 
 #include <arcslip/laws/grazing_condition.hpp>
 

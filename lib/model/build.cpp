@@ -78,7 +78,7 @@ class Builder {
   }
 
  private:
-  // Those of the scene, or of its matrices and what stands beside them.
+  // Those of the scene, or of its matrices and what stands next to them.
   void set_dofs(const scene::StopRequest& stop) {
     if (scene_.matrices) {
       PlacedMatrices placed = place_matrices(scene_, stop);
@@ -105,7 +105,7 @@ class Builder {
       if (shape.excitation != i) continue;
       Excitation one = base;
       one.imaginary = shape.imaginary;
-      if (one.imaginary) one.direction = Direction(model_.dofs);  // what stands beside the shape is real
+      if (one.imaginary) one.direction = Direction(model_.dofs);  // what stands next to the shape is real
       one.load = shape.load;
       for (int dof = 0; dof < static_cast<int>(shape.ground.size()); ++dof)
         if (shape.ground[dof] != 0) one.direction.coeffRef(dof) += shape.ground[dof];

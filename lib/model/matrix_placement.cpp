@@ -143,19 +143,19 @@ void Placer::set_copies(const std::vector<Index>& sizes) {
   placed_.unnamed_from = static_cast<int>(kept_ * copies_);
   placed_.unnamed_to = static_cast<int>(kept_ * copies_ + coordinates);
   if (!reduces_) return;
-  Reduction& told = placed_.reduction.emplace();
-  told.rows = files_.size();
-  told.kept = static_cast<int>(kept_);
-  told.highest_frequency = highest_frequency();
-  told.highest_speed = highest_speed();
+  Reduction& reported = placed_.reduction.emplace();
+  reported.rows = files_.size();
+  reported.kept = static_cast<int>(kept_);
+  reported.highest_frequency = highest_frequency();
+  reported.highest_speed = highest_speed();
 }
 
 void Placer::tell_error(Index size, double error, double free_below) {
   if (!placed_.reduction) return;
-  Reduction& told = *placed_.reduction;
-  told.coordinates = std::max(told.coordinates, static_cast<int>(size - kept_));
-  told.error = std::max(told.error, error);
-  told.free_below = std::max(told.free_below, free_below);
+  Reduction& reported = *placed_.reduction;
+  reported.coordinates = std::max(reported.coordinates, static_cast<int>(size - kept_));
+  reported.error = std::max(reported.error, error);
+  reported.free_below = std::max(reported.free_below, free_below);
 }
 
 double Placer::highest_frequency() const {

@@ -147,7 +147,7 @@ bool is_open_at_rest(const NonlinearPart& element, const continuation::Vector& p
 std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p, bool in_stick) {
   if (model.harmonics.odd) return {};
   // Springs of any stiffness hold what they are between: a stiff link takes nothing from the softer ones.
-  // Only where some are negative, or beside matrices, it takes their values to tell.
+  // Only where some are negative, or next to matrices, it takes their values to tell.
   const bool by_value = !model.matrices.empty() ||
                         std::any_of(model.springs.begin(), model.springs.end(),
                                     [&](const LinearPart& spring) { return p[spring.parameter] < 0; });

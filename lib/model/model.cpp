@@ -146,7 +146,7 @@ Eigen::MatrixXd stiffness_matrix(const Model& model, const continuation::Vector&
   return sum_of(model, LinearKind::spring, p) + sum_of(model, LinearKind::circulatory, p);
 }
 
-std::string told(const Model& model, int dof) {
+std::string coordinate_name(const Model& model, int dof) {
   if (dof >= model.unnamed_from && dof < model.unnamed_to) return "the structure";
   return '"' + model.dof_names[static_cast<std::size_t>(dof)] + '"';
 }

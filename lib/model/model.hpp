@@ -164,7 +164,7 @@ struct Excitation {
   double displacement_rate(double w) const;
 };
 
-/// A response beside that of the amplitude. Its amplitude, too, is the largest over its places.
+/// A response next to that of the amplitude. Its amplitude, too, is the largest over its places.
 struct NamedResponse {
   std::vector<Direction> places;
   bool absolute = false;
@@ -174,10 +174,10 @@ struct NamedResponse {
 struct Reduction {
   int rows = 0;                  // of the matrices, in each copy
   int kept = 0;                  // of them
-  int coordinates = 0;           // beside the degrees of freedom with names, in the copy with most
+  int coordinates = 0;           // next to the degrees of freedom with names, in the copy with most
   double highest_frequency = 0;  // rad/s
   double error = 0;              // structure::Reduced::error
-  double free_below = 0;         // rad/s: natural frequencies below are not told from 0
+  double free_below = 0;         // rad/s: natural frequencies below are not distinguished from 0
   double highest_speed = 0;      // rad/s, of the rotation
 };
 
@@ -258,6 +258,6 @@ bool is_open_at_rest(const NonlinearPart& element, const continuation::Vector& p
 std::optional<int> drifting_dof(const Model& model, const continuation::Vector& p, bool in_stick = true);
 
 /// For messages: a degree of freedom by its name, in quotes; "the structure" where the scene has none for it.
-std::string told(const Model& model, int dof);
+std::string coordinate_name(const Model& model, int dof);
 
 }  // namespace arcslip::model

@@ -1,7 +1,7 @@
 #pragma once
 // The matrices of a scene in the degrees of freedom of its model: its rows with names, of a reduced structure
 // those that the scene uses; then what describes the others, rows or coordinates; then the degrees of freedom
-// beside the matrices. Of several copies the rows of all stand first, then the coordinates of all.
+// next to the matrices. Of several copies the rows of all stand first, then the coordinates of all.
 
 #include <arcslip/model/model.hpp>
 

@@ -49,7 +49,7 @@ std::string prepare(const scene::Scene& scene, const scene::StopRequest& stop) {
          (done->highest_speed > 0 ? " and speeds up to " + results::quantity(done->highest_speed, "rad/s")
                                   : "") +
          (done->free_below > 0 ? "; natural frequencies below " + frequency(to_two_digits(done->free_below)) +
-                                     " are not told from 0, that of motions as a rigid body"
+                                     " are not distinguished from 0, that of motions as a rigid body"
                                : "");
 }
 

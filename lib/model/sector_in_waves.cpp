@@ -51,7 +51,7 @@ std::shared_ptr<const WaveStructure> SectorInWaves::wave(const structure::Wave& 
       [&] { return structure::reduce_wave(files_, in, rows_, purpose_of, stop_); });
 }
 
-// Coordinates that a wave has not are beside it, with a stiffness of their own.
+// Coordinates that a wave has not are next to it, with a stiffness of their own.
 bool SectorInWaves::add(LinearKind kind, const Which& which) {
   const auto dofs = static_cast<Index>(placed_.dof_names.size());
   std::vector<MatrixXcd> of_diameter(waves_.size());

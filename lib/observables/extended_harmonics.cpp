@@ -106,16 +106,16 @@ double WideEquations::solve(const continuation::LinearSolver& kept, const Vector
   return 0;
 }
 
-bool WideEquations::look_beside(In wide, In p) {
-  if (!beside_) beside_ = problem_.hbm_evaluator();
-  return beside_->move_to(wide, p, continuation::Needs::jacobian) == continuation::Evaluated::ok &&
-         beside_->piece() == evaluator_->piece();
+bool WideEquations::look_nearby(In wide, In p) {
+  if (!nearby_) nearby_ = problem_.hbm_evaluator();
+  return nearby_->move_to(wide, p, continuation::Needs::jacobian) == continuation::Evaluated::ok &&
+         nearby_->piece() == evaluator_->piece();
 }
 
 const hbm::HbmEvaluator* WideEquations::look_at(In wide, In p) {
-  if (!beside_) beside_ = problem_.hbm_evaluator();
-  const bool done = beside_->move_to(wide, p, continuation::Needs::residual) == continuation::Evaluated::ok;
-  return done ? beside_.get() : nullptr;
+  if (!nearby_) nearby_ = problem_.hbm_evaluator();
+  const bool done = nearby_->move_to(wide, p, continuation::Needs::residual) == continuation::Evaluated::ok;
+  return done ? nearby_.get() : nullptr;
 }
 
 void WideEquations::apply(const hbm::HbmEvaluator& at, const Change& change, int q, Vector& y) {

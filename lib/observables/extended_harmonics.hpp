@@ -55,12 +55,12 @@ class WideEquations {
 
   /// A point next to the last one, which stays that of all other calls. False: it cannot be evaluated, or is
   /// in another piece.
-  bool look_beside(continuation::In wide, continuation::In p);
+  bool look_nearby(continuation::In wide, continuation::In p);
   /// The motion at a point next to the last one, in any piece; null: it cannot be evaluated.
   const hbm::HbmEvaluator* look_at(continuation::In wide, continuation::In p);
-  const continuation::Vector& residual_beside() const { return beside_->residual(); }
-  void apply_beside(const Change& change, int q, continuation::Vector& y) const {
-    apply(*beside_, change, q, y);
+  const continuation::Vector& residual_nearby() const { return nearby_->residual(); }
+  void apply_nearby(const Change& change, int q, continuation::Vector& y) const {
+    apply(*nearby_, change, q, y);
   }
 
   void embed(continuation::In u, continuation::Vector& wide) const;
@@ -73,7 +73,7 @@ class WideEquations {
   const hbm::HbmProblem& narrow_;
   elements::Harmonics kept_, wide_;
   hbm::HbmProblem problem_;
-  std::unique_ptr<hbm::HbmEvaluator> evaluator_, beside_;
+  std::unique_ptr<hbm::HbmEvaluator> evaluator_, nearby_;
   std::vector<int> orders_;                    // neglected, n > N
   std::vector<continuation::LU<double>> lus_;  // of their blocks, 2 r x 2 r
   Eigen::MatrixXd block_;

@@ -127,7 +127,7 @@ void Observer::add_stability(const continuation::Accepted& now, ResponsePoint& p
   stable_u_.resize(0);
   const auto& elements = problem_->model().elements;
   const bool contacts =
-      std::any_of(elements.begin(), elements.end(), [](const auto& e) { return e.law->tells_contact(); });
+      std::any_of(elements.begin(), elements.end(), [](const auto& e) { return e.law->reports_contact(); });
   const auto refined = [&](Truncation::Reach reach) -> const Multipliers* {
     const auto motion = truncation_->refined(now, reach, contacts);
     if (!motion) return nullptr;
@@ -168,7 +168,7 @@ void Observer::estimate_stick(const continuation::Accepted& now, ResponsePoint& 
   }
 }
 
-ResponsePoint Observer::observe(const continuation::Accepted& now, HeldBy held, bool maxima) {
+ResponsePoint Observer::observe(const continuation::Accepted& now, PointCondition held, bool maxima) {
   const auto& at = hbm_evaluator_of(now);
   ResponsePoint point = motion(at, now.u, now.p);
   const Extreme at_most = last_;

@@ -30,10 +30,10 @@ class Observer {
 
   /// All observables at one point. held: the kind of point for the truncation estimate. The maxima, which are
   /// the most expensive, are computed at events and other special points, or on request.
-  ResponsePoint observe(const continuation::Accepted& now, HeldBy held = HeldBy::parameter) {
-    return observe(now, held, held != HeldBy::parameter);
+  ResponsePoint observe(const continuation::Accepted& now, PointCondition held = PointCondition::parameter) {
+    return observe(now, held, held != PointCondition::parameter);
   }
-  ResponsePoint observe(const continuation::Accepted& now, HeldBy held, bool maxima);
+  ResponsePoint observe(const continuation::Accepted& now, PointCondition held, bool maxima);
 
   /// From now on, points have their stability, where it is known.
   void watch_stability(const StabilityRequest& request = true) {

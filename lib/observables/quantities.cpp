@@ -161,8 +161,8 @@ bool is_part_with_normal_load(const scene::Part& part) {
   return law_of(part)->has_normal_load();
 }
 
-bool is_part_that_tells_contact(const scene::Part& part) {
-  return law_of(part)->tells_contact();
+bool is_part_that_reports_contact(const scene::Part& part) {
+  return law_of(part)->reports_contact();
 }
 
 bool is_part_with_wear(const scene::Part& part) {
@@ -345,10 +345,10 @@ constexpr ElementQuantity of_element[] = {
     {"contact_states", "",
      "contacts with exact integrals, in the order of time: `stick`, `slip+` or `slip-` by the sign of the "
      "friction force, or `slip`; `open`, `closed`, `closed+` or `closed-` by the side of a spring with two",
-     contact_states, has_contact_states, is_part_that_tells_contact},
+     contact_states, has_contact_states, is_part_that_reports_contact},
     {"contact_angles", "rad",
      "likewise, where each state begins, ascending; the last one lasts until the first", contact_angles,
-     has_contact_states, is_part_that_tells_contact},
+     has_contact_states, is_part_that_reports_contact},
     {"energy", "J", "dissipated per period", element<&Element::energy>},
     {"wear_rate", "m³/s",
      "elements with a `wear_coefficient`: worn volume per second, the coefficient times the dissipated power",

@@ -65,7 +65,7 @@ bool is_friction_part(const scene::Part& part);
 std::span<const ResponseQuantity> response_quantities();
 /// Where the stability is requested, and known.
 std::span<const Quantity<Stability>> stability_quantities();
-/// What modes have beside those of a response.
+/// What modes have in addition to those of a response.
 std::span<const ResponseQuantity> mode_quantities();
 /// Whether modes have the quantity with this path, of a response or of a named one: not where it takes an
 /// excitation.

@@ -66,13 +66,13 @@ bool stiffen(const model::Model& model, const Vector& p) {
 
 }  // namespace
 
-HeldBy held_by(const continuation::Event& event) {
-  if (event.nonsmooth) return HeldBy::corner;
-  if (event.monitor == event_kinds::fold) return HeldBy::fold;
-  if (event.monitor == event_kinds::branch_point) return HeldBy::branch_point;
+PointCondition held_by(const continuation::Event& event) {
+  if (event.nonsmooth) return PointCondition::corner;
+  if (event.monitor == event_kinds::fold) return PointCondition::fold;
+  if (event.monitor == event_kinds::branch_point) return PointCondition::branch_point;
   const bool bifurcation = std::any_of(event_kinds::of_stability.begin(), event_kinds::of_stability.end(),
                                        [&](const char* kind) { return event.monitor == kind; });
-  return bifurcation ? HeldBy::parameter : HeldBy::extremum;
+  return bifurcation ? PointCondition::parameter : PointCondition::extremum;
 }
 
 Truncation::Truncation(const hbm::HbmProblem& problem, int free, const Vector& p)
@@ -89,7 +89,7 @@ Truncation::Truncation(const hbm::HbmProblem& problem, int free, const Vector& p
       by_parameter_(response_.size()) {}
 
 TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const Extreme& extreme,
-                                        HeldBy held) {
+                                        PointCondition held) {
   const Eigen::Index n = problem_.size();
   exact_ = false;
   change_.u.resize(0);
@@ -99,25 +99,25 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   for (std::size_t e = 0; e < wide_.at().element_count(); ++e)
     force = std::max(force, wide_.at().element(e).force().cwiseAbs().maxCoeff());
   exact_ = residual_.cwiseAbs().maxCoeff() <= linear_motion * force;
-  if (exact_ && held == HeldBy::parameter) return {};
+  if (exact_ && held == PointCondition::parameter) return {};
   if (exact_) return {.location = 0, .location_change = 0};
-  if (held == HeldBy::branch_point) return {.amplitude = no_value, .change = no_value};
+  if (held == PointCondition::branch_point) return {.amplitude = no_value, .change = no_value};
 
   bool flagged = samples_too_few();
   Shift location;
   wide_.factorize(free_);
-  const bool is_at_corner = held == HeldBy::corner && to_corner(now);
+  const bool is_at_corner = held == PointCondition::corner && to_corner(now);
   if (!is_at_corner) {
     const double enough = tolerance * now.u.norm();
     const bool converges = wide_.solve(now.bordered, residual_, {}, change_, enough) <= converging;
     wide_.embed(now.tangent.head(n), tangent_.u);
     tangent_.parameter = now.tangent[n];
     const Step step = step_along(now, held);
-    if (held == HeldBy::extremum) location = shift_of_extremum(now, extreme);
+    if (held == PointCondition::extremum) location = shift_of_extremum(now, extreme);
     change_.u += step.length * tangent_.u;
     change_.parameter += step.length * tangent_.parameter;
     flagged = flagged || !converges || !step.known;
-    if (held == HeldBy::fold && step.known) location.change = change_.parameter;
+    if (held == PointCondition::fold && step.known) location.change = change_.parameter;
   } else {
     location.change = change_.parameter;
   }
@@ -147,9 +147,9 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
 
 // Of the solution's change x; response_: that of the response.
 double Truncation::change_of_amplitude(const Change& x, const continuation::Accepted& now,
-                                       const Extreme& extreme, HeldBy held) {
+                                       const Extreme& extreme, PointCondition held) {
   wide_.at().stiffness().response(x.u, 0, response_, extreme.place);
-  if (held != HeldBy::parameter) {
+  if (held != PointCondition::parameter) {
     wide_.embed(now.u, base_);
     wide_.at().stiffness().response_derivative(free_, base_, wide_.at().force_factor(), by_parameter_,
                                                extreme.place);
@@ -160,8 +160,8 @@ double Truncation::change_of_amplitude(const Change& x, const continuation::Acce
 
 // By a second correction, with the factors of the first: next to a resonance of a neglected harmonic the
 // first order is not all. NaN: not known.
-double Truncation::further_change(const continuation::Accepted& now, const Extreme& extreme, HeldBy held,
-                                  bool is_at_corner) {
+double Truncation::further_change(const continuation::Accepted& now, const Extreme& extreme,
+                                  PointCondition held, bool is_at_corner) {
   wide_.embed(now.u, base_);
   Vector p = now.p;
   p[free_] += change_.parameter;
@@ -170,7 +170,7 @@ double Truncation::further_change(const continuation::Accepted& now, const Extre
   Change further;
   wide_.solve(is_at_corner ? *solver_ : now.bordered, at->residual(),
               is_at_corner ? border_ : WideEquations::Border(), further);
-  if (held == HeldBy::parameter) {
+  if (held == PointCondition::parameter) {
     const double step = -further.parameter / tangent_.parameter;
     further.u += step * tangent_.u;
     further.parameter = 0;
@@ -242,7 +242,7 @@ double Truncation::highest_natural_frequency_above(double reach, const continuat
 }
 
 // The largest at the resonance of a mode beyond the harmonics of the wide equations. Forces of contacts fall
-// as n^-2: the one left out that is largest by this law tells what is beyond.
+// as n^-2: the one left out that is largest by this law says what is beyond.
 double Truncation::response_beyond(const continuation::Accepted& now) const {
   if (stiffens_ || !high_modes_) return HUGE_VAL;
   const elements::Harmonics& all = wide_.problem().harmonics();
@@ -280,13 +280,14 @@ std::vector<double> Truncation::largest_motions() const {
 }
 
 // The step along the tangent from the condition of the point.
-Truncation::Step Truncation::step_along(const continuation::Accepted& now, HeldBy held) {
+Truncation::Step Truncation::step_along(const continuation::Accepted& now, PointCondition held) {
   const double t = tangent_.parameter, d = change_.parameter;
   const double size = std::max(1.0, now.u.norm() / problem_.displacement());
-  if (held == HeldBy::extremum) return {0, true};
-  if (held == HeldBy::corner) return {0, false};
-  if (held == HeldBy::parameter && std::abs(d) <= near_a_fold * size * std::abs(t)) return {-d / t, true};
-  if (held == HeldBy::fold) {
+  if (held == PointCondition::extremum) return {0, true};
+  if (held == PointCondition::corner) return {0, false};
+  if (held == PointCondition::parameter && std::abs(d) <= near_a_fold * size * std::abs(t))
+    return {-d / t, true};
+  if (held == PointCondition::fold) {
     const auto slope = slope_along(wide_, change_, true, now);
     const auto bend = slope_along(wide_, tangent_, false, now);
     return slope && bend ? Step{-slope->parameter / bend->parameter, true} : Step{0, false};
@@ -315,7 +316,7 @@ std::optional<Truncation::Change> Truncation::slope_along(WideEquations& in, con
   in.embed(now.tangent.head(now.u.size()), along_);
   const double size = std::max(1.0, now.u.norm() / problem_.displacement());
   Vector place, p = now.p, middle;
-  std::array<Vector, 2> beside;
+  std::array<Vector, 2> nearby;
   in.apply(x, free_, middle);
   if (with_residual) middle += in.at().residual();
   const auto quotient = continuation::difference_within_piece(continuation::difference_step * size,
@@ -323,15 +324,15 @@ std::optional<Truncation::Change> Truncation::slope_along(WideEquations& in, con
                                                                 place = base_ + h * along_;
                                                                 p = now.p;
                                                                 p[free_] += h * now.tangent[now.u.size()];
-                                                                if (!in.look_beside(place, p)) return false;
-                                                                in.apply_beside(x, free_, beside[i]);
+                                                                if (!in.look_nearby(place, p)) return false;
+                                                                in.apply_nearby(x, free_, nearby[i]);
                                                                 if (with_residual)
-                                                                  beside[i] += in.residual_beside();
+                                                                  nearby[i] += in.residual_nearby();
                                                                 return true;
                                                               });
   if (!quotient) return {};
   const Vector slope =
-      quotient->here * middle + quotient->weight[0] * beside[0] + quotient->weight[1] * beside[1];
+      quotient->here * middle + quotient->weight[0] * nearby[0] + quotient->weight[1] * nearby[1];
   WideEquations::Change change;
   in.solve(now.bordered, slope, {}, change);
   return change;

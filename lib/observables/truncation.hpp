@@ -53,8 +53,8 @@ struct TruncationEstimate {
 };
 
 /// The condition that defines a point of a branch.
-enum class HeldBy { parameter, extremum, fold, corner, branch_point };
-HeldBy held_by(const continuation::Event& event);
+enum class PointCondition { parameter, extremum, fold, corner, branch_point };
+PointCondition held_by(const continuation::Event& event);
 
 class Truncation {
  public:
@@ -62,7 +62,7 @@ class Truncation {
   Truncation(const hbm::HbmProblem& problem, int free, const continuation::Vector& p);
 
   /// At an accepted point of a branch (of a problem with the same harmonics); extreme: of its response.
-  TruncationEstimate estimate(const continuation::Accepted& now, const Extreme& extreme, HeldBy held);
+  TruncationEstimate estimate(const continuation::Accepted& now, const Extreme& extreme, PointCondition held);
 
   /// Whether no harmonics are neglected, at the point of the last estimate().
   bool is_exact() const { return exact_; }
@@ -94,11 +94,11 @@ class Truncation {
   Shift shift_of_extremum(const continuation::Accepted& now, const Extreme& extreme);
   elements::Values response_to(WideEquations& in, const Change& x, const continuation::Accepted& now,
                                const Extreme& extreme);
-  Step step_along(const continuation::Accepted& now, HeldBy held);
+  Step step_along(const continuation::Accepted& now, PointCondition held);
   bool to_corner(const continuation::Accepted& now);
   double change_of_amplitude(const Change& x, const continuation::Accepted& now, const Extreme& extreme,
-                             HeldBy held);
-  double further_change(const continuation::Accepted& now, const Extreme& extreme, HeldBy held,
+                             PointCondition held);
+  double further_change(const continuation::Accepted& now, const Extreme& extreme, PointCondition held,
                         bool is_at_corner);
   double highest_natural_frequency_above(double reach, const continuation::Accepted& now);
   double response_beyond(const continuation::Accepted& now) const;

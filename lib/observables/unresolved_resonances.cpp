@@ -304,7 +304,7 @@ struct ShapeAtRest {
 };
 
 // Modes of one frequency, of which any combination is a mode: a force drives the one sum (v_k . f) v_k, which
-// tells whether the response is at a node.
+// says whether the response is at a node.
 void tell_driven(std::span<ShapeAtRest> equal, const std::vector<Vector>& forces,
                  const std::vector<Vector>& places) {
   bool driven = false, driven_responds = false, any_responds = false;
@@ -338,7 +338,7 @@ void tell_driven_by_frequency(std::vector<ShapeAtRest>& all, const std::vector<V
 }  // namespace
 
 bool is_contact(const elements::Law& law) {
-  return law.has_contact() || law.tells_contact() || law.set_valued();
+  return law.has_contact() || law.reports_contact() || law.set_valued();
 }
 
 std::optional<std::vector<ModeAtRest>> modes_at_rest(const model::Model& model, const Vector& p,
@@ -363,9 +363,9 @@ std::optional<std::vector<ModeAtRest>> modes_at_rest(const model::Model& model, 
   }
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.mode.omega < b.mode.omega; });
   if (!in_waves) tell_driven_by_frequency(all, lowest_forces(model, p), places_of_response(model));
-  std::vector<ModeAtRest> told;
-  for (const ShapeAtRest& each : all) told.push_back(each.mode);
-  return told;
+  std::vector<ModeAtRest> reported;
+  for (const ShapeAtRest& each : all) reported.push_back(each.mode);
+  return reported;
 }
 
 }  // namespace arcslip::observables

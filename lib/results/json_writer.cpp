@@ -235,7 +235,7 @@ void JsonWriter::open(const std::string& list) {
 void JsonWriter::close() {
   if (list_.empty()) return;
   out_ << ']';
-  if (in_list_ == 1) out_ << beside_;
+  if (in_list_ == 1) out_ << nearby_;
   list_.clear();
 }
 
@@ -271,12 +271,12 @@ void JsonWriter::end(const End& end) {
   Object all{{"status", name(end.status)}, {"stop", end.stop}};
   if (!end.doubt.empty()) all.push_back({"doubt", end.doubt});
   all.insert(all.end(), end.facts.begin(), end.facts.end());
-  if (in_list_ == 1) beside_.clear();
+  if (in_list_ == 1) nearby_.clear();
   for (const Member& fact : all) {
     const std::string text = json(fact.value);
     out_ << ",\n" << json_quoted(fact.key) << ": " << text;
-    if (in_list_ == 1 && std::count(schema_->beside.begin(), schema_->beside.end(), fact.key) > 0)
-      beside_ += ",\n" + json_quoted(fact.key) + ": " + text;
+    if (in_list_ == 1 && std::count(schema_->nearby.begin(), schema_->nearby.end(), fact.key) > 0)
+      nearby_ += ",\n" + json_quoted(fact.key) + ": " + text;
   }
   out_ << '}';
   schema_ = nullptr;

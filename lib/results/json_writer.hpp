@@ -10,7 +10,7 @@ namespace arcslip::results {
 
 /// Writes one object: {"format", "program", "scene_hash", "title", "frequency_unit", "reduction", LIST: [R,
 /// ...]}, and so for each list; its format is that of the schemas if they agree, else "arcslip-results-1".
-/// The results of a list must be consecutive. A list with one result is followed by its Schema::beside. Here
+/// The results of a list must be consecutive. A list with one result is followed by its Schema::next to. Here
 ///   R = {"study", "kind", facts of the head, "set", a key for each table, "status", "stop",
 ///        "doubt", facts of the end}
 /// without "reduction", "study", "kind" and "doubt" if they are empty. A table is a list of objects, one row
@@ -19,7 +19,7 @@ namespace arcslip::results {
 /// ends.
 class JsonWriter : public Sink {
  public:
-  /// The stream outlives this; its state tells whether writing succeeded.
+  /// The stream outlives this; its state says whether writing succeeded.
   explicit JsonWriter(std::ostream& out);
   ~JsonWriter() override;
 
@@ -43,7 +43,7 @@ class JsonWriter : public Sink {
   std::size_t in_list_ = 0;           // results so far
   const Schema* schema_ = nullptr;    // of the result that is open
   std::vector<std::unique_ptr<TableText>> tables_;
-  std::string beside_;  // of the first result of a list
+  std::string nearby_;  // of the first result of a list
 };
 
 /// A value as JSON.

@@ -37,7 +37,7 @@ struct ElementResponse {
   std::vector<double> slip_angles;                 // onset of each slip phase, rad in [0, 2 pi)
   std::vector<double> reversal_angles;             // end of each slip phase, rad in [0, 2 pi)
   double energy = 0;                               // dissipated per period, J
-  std::vector<elements::ContactInterval> contact;  // of the period, in order; empty: not told
+  std::vector<elements::ContactInterval> contact;  // of the period, in order; empty: not reported
 
   // With a normal load that varies: the share of the period in separation, 0 to 100, and that load, N.
   bool has_normal_load = false;
@@ -47,7 +47,7 @@ struct ElementResponse {
   bool of_patch = false;             // one of ResponsePoint::patches has it
 
   // What the mean force may be, N: more than one where a slider sticks throughout the period, and the offset
-  // chosen for it decides. no_value: not told.
+  // chosen for it decides. no_value: not reported.
   double mean_force_min = no_value, mean_force_max = no_value;
 
   // With one stick and one slip phase in each half period: theta_0 in [0, 2 pi), the angle of the largest
@@ -107,7 +107,7 @@ struct Stability {
   double rotation = no_value;  // at a Neimark-Sacker point: argument of the pair over 2 pi
 };
 
-/// The forced responses beside a mode, by one-mode synthesis
+/// The forced responses next to a mode, by one-mode synthesis
 /// (analyses/modes_and_time/one_mode_synthesis.hpp); no_value: there are none.
 struct Synthesis {
   double level = no_value;  // of the excitation whose response has its peak at this amplitude

@@ -71,7 +71,7 @@ struct Schema {
   std::vector<Column> set{};          // of Head::set, in any of them
   std::vector<Shown> shown{};         // to people; none: End::text
   std::string shown_table{};          // whose rows; empty: facts of the end
-  std::vector<std::string> beside{};  // keys of a single result that are also written next to its list
+  std::vector<std::string> nearby{};  // keys of a single result that are also written next to its list
 };
 
 /// The cells of one column; absent ones and non-finite numbers are missing values.

@@ -27,7 +27,7 @@ void check_rotation(const Scene& scene, Faults& faults) {
   if (scene.rotation.empty() && scene.matrices && scene.matrices->stiffness_speed_squared.matrix)
     faults.add(
         "/structure/matrices/stiffness_speed_squared",
-        "found no \"rotation\", must stand beside \"matrices\": the speed by which this stiffness grows");
+        "found no \"rotation\", must stand next to \"matrices\": the speed by which this stiffness grows");
   if (scene.rotation.empty()) return;
   if (!scene.matrices || !scene.matrices->turns()) {
     faults.add("/structure/rotation",
@@ -40,11 +40,11 @@ void check_rotation(const Scene& scene, Faults& faults) {
   if (scene.matrices->highest_frequency > 0 && rotation.highest_speed == 0 && rotation.engine_order == 0)
     faults.add(
         "/structure/rotation",
-        "found no \"highest_speed\" beside \"highest_frequency\", must have it: the highest speed for which "
+        "found no \"highest_speed\" next to \"highest_frequency\", must have it: the highest speed for which "
         "the structure is reduced");
   if (rotation.highest_speed > 0 && rotation.engine_order > 0)
     faults.add("/structure/rotation/highest_speed",
-               "found it beside \"engine_order\", must be one of them: the highest speed is then "
+               "found it next to \"engine_order\", must be one of them: the highest speed is then "
                "highest_frequency/engine_order");
 }
 
@@ -67,7 +67,7 @@ void check_shape(const Scene& scene, std::size_t i, Faults& faults) {
   }
   if (!from_files) {
     faults.add(child(pointer, "shape"),
-               "found a vector over the rows of matrices, must stand beside \"matrices\" from files");
+               "found a vector over the rows of matrices, must stand next to \"matrices\" from files");
     return;
   }
   const auto check_rows = [&](const char* key, const ShapeFile& file) {
@@ -87,7 +87,7 @@ void check_shape(const Scene& scene, std::size_t i, Faults& faults) {
                                            ", must be an integer from 1 to " + std::to_string(copies) +
                                            ", one of the copies of the matrices");
   if (shape->copy == 0 && copies > 1)
-    faults.add(pointer, "found \"shape\" without \"copy\", must have it beside it, an integer from 1 to " +
+    faults.add(pointer, "found \"shape\" without \"copy\", must have it next to it, an integer from 1 to " +
                             std::to_string(copies) +
                             ": on which of the copies of the matrices the shape acts; \"repeat\" makes "
                             "excitations for several");
@@ -95,11 +95,11 @@ void check_shape(const Scene& scene, std::size_t i, Faults& faults) {
   for (const Term& term : part.directions.front())
     if (static_cast<std::size_t>(term.dof) < rows)
       faults.add(pointer, "found " + shown(scene.dofs[static_cast<std::size_t>(term.dof)]) +
-                              " beside \"shape\", which has it among the rows of the matrices; must name "
+                              " next to \"shape\", which has it among the rows of the matrices; must name "
                               "other degrees of freedom alone");
   if (moves_ground && part.directions.front().empty() && scene.dofs.size() > rows)
     faults.add(pointer,
-               "found \"shape\" alone, must have \"direction\" beside it: how the ground moves under " +
+               "found \"shape\" alone, must have \"direction\" next to it: how the ground moves under " +
                    shown(scene.dofs[rows]) + ", which is no row of the matrices");
 }
 

@@ -35,7 +35,7 @@ namespace {
 constexpr std::size_t most_faults = 1000;
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
 
-// The copies of an entry with a fault at the same place: that of the first is told.
+// The copies of an entry with a fault at the same place: that of the first is reported.
 struct Copies {
   explicit Copies(const Origin* origin) : first(origin) {}
 
@@ -51,7 +51,7 @@ struct Copies {
 
   const Origin* first;
   std::set<int> numbers;
-  std::vector<std::size_t> told;  // among the faults
+  std::vector<std::size_t> reported;  // among the faults
 };
 
 }  // namespace
@@ -81,12 +81,12 @@ void Faults::raise() const {
     Copies& all = copies.try_emplace(fault.pointer, origin).first->second;
     all.numbers.insert(origin->number);
     if (origin->number == all.first->number) {
-      all.told.push_back(faults.size());
+      all.reported.push_back(faults.size());
       faults.push_back(std::move(fault));
     }
   }
   for (const auto& [pointer, all] : copies)
-    for (const std::size_t i : all.told) faults[i].message.insert(0, all.text() + ": ");
+    for (const std::size_t i : all.reported) faults[i].message.insert(0, all.text() + ": ");
   if (count_ > kept_.size()) {
     faults.push_back(
         {"", "and " + std::to_string(count_ - kept_.size()) + " more faults, which are not listed"});
@@ -108,7 +108,7 @@ const Origin* Faults::to_file(std::string& pointer) const {
   return nullptr;
 }
 
-std::string Faults::told(const std::string& pointer) const {
+std::string Faults::reported(const std::string& pointer) const {
   std::string in_file = pointer;
   const Origin* origin = to_file(in_file);
   if (origin == nullptr || origin->index.empty()) return in_file;

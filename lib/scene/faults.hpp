@@ -29,10 +29,10 @@ class Faults {
  public:
   void add(std::string pointer, std::string message);
   std::size_t count() const { return count_; }
-  /// From here on pointers are of a tree with repeated entries, and told as those of the file.
+  /// From here on pointers are of a tree with repeated entries, and reported as those of the file.
   void set_origins(Origins origins) { origins_ = std::move(origins); }
-  /// A pointer as it is told within a message.
-  std::string told(const std::string& pointer) const;
+  /// A pointer as it is reported within a message.
+  std::string reported(const std::string& pointer) const;
   /// True if further faults are only counted, and need no message.
   bool full() const;
   /// Throws SceneError if there is any fault.

@@ -24,7 +24,7 @@ enum class KeyType {
 
 /// The further keys that a key of this type requires: "bounds", pairs [lower, upper] of parameters; "from"
 /// and "to" of a continuation parameter.
-std::vector<std::string> keys_beside(KeyType type);
+std::vector<std::string> keys_next_to(KeyType type);
 
 /// One key, for scene files, command line options, the documentation and the JSON Schema.
 struct Key {

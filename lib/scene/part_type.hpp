@@ -52,8 +52,8 @@ class PartType {
   /// Whether they decide which fields it has; for the JSON Schema.
   virtual bool options_bring_fields() const { return !options().empty(); }
 
-  /// Whether a wear coefficient stands beside them: of elements that dissipate.
-  virtual bool wears(const Settings&) const { return false; }
+  /// Whether a wear coefficient stands next to them: of elements that dissipate.
+  virtual bool has_wear(const Settings&) const { return false; }
 
   /// The scalar fields with these options, in the order of Part::values. Valid as long as the options.
   virtual std::span<const Field> fields(const Settings& options) const = 0;

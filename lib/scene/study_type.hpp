@@ -15,7 +15,7 @@
 namespace arcslip::scene {
 
 /// A parameter that a study itself sets, and how: `which the study is "over"`.
-struct Taken {
+struct ParameterUse {
   std::string parameter, how;
 };
 
@@ -47,7 +47,7 @@ class StudyType {
   virtual std::vector<NamedFile*> files(Settings&) const { return {}; }
   virtual void write(const Settings& settings, const Scene& scene, std::vector<file::Member>& to) const = 0;
 
-  virtual std::vector<Taken> taken(const Settings& settings) const = 0;
+  virtual std::vector<ParameterUse> taken(const Settings& settings) const = 0;
   /// Removes a parameter from lists of values; the continuation parameter cannot be removed.
   virtual void drop(std::string_view parameter, Settings& settings) const = 0;
 

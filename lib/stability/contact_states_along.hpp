@@ -24,7 +24,7 @@ struct Course {
   std::vector<ModeChange> changes;
 };
 
-/// From the intervals that an element tells (Element::contact()), put in order. Where neighbours have no
+/// From the intervals that an element reports (Element::contact()), put in order. Where neighbours have no
 /// guard between them, the modes on the shortest way are passed at that instant. False: a state that is no
 /// mode.
 bool course_of(const elements::Automaton& automaton, const std::vector<elements::ContactInterval>& intervals,

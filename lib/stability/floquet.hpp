@@ -5,8 +5,8 @@
 //   M w'' + C w'/omega + (K + sum D T D^T) w/omega^2 + sum D f_z dz/omega^2 = 0,     w' = dw/dtheta
 //
 // A law that is piecewise linear (laws/automaton.hpp) has a constant T between the changes of its modes,
-// whose angles the element tells (contact_states_along.hpp). A slider that rests keeps its variation dz; one
-// that follows has dz = z_q D^T w, and at the instant theta_e where it comes to rest by a guard g of
+// whose angles the element reports (contact_states_along.hpp). A slider that rests keeps its variation dz;
+// one that follows has dz = z_q D^T w, and at the instant theta_e where it comes to rest by a guard g of
 // displacements the variation of this instant, -dg/g', moves it too. Other laws without memory have T = df/dq
 // and B = df/dv along the motion, and hysteretic ones a forcing by the disturbance of their memory, too
 // (memory_along.hpp).

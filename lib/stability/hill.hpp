@@ -8,7 +8,8 @@
 // J_m: the Fourier coefficients of the variational equation's matrix over (w, dw/dtheta), whose part by
 // elements is -M^-1 D T_m D^T/omega^2 and -M^-1 D B_m D^T/omega. The matrix of this system is Hill's. The map
 // over the period is the sum of z_k(2 pi) (Koopman-Hill projection): no eigenvalue of the truncated matrix
-// has to be told from its copies, shifted by i k. Over half a period of an antisymmetric motion it is -sum
+// has to be reported from its copies, shifted by i k. Over half a period of an antisymmetric motion it is
+// -sum
 // (-1)^k z_k(pi).
 //
 // T_m, B_m: of 4 H + 4 samples of smooth laws, exact where a law without memory is piecewise linear. H is

@@ -4,7 +4,7 @@
 //   p(s) = sum_l b_l P_l(2s - 1),   b = by_values * values
 //
 // What p leaves out is orthogonal to the polynomials of a lower degree than the number of nodes, up to an
-// error of twice that order; the size of the last b tells what it is.
+// error of twice that order; the size of the last b says what it is.
 
 #include <arcslip/time/equation/equation_of_motion.hpp>
 

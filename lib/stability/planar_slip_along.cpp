@@ -116,8 +116,8 @@ DiscCourse::Slip DiscCourse::slip_at(const Place& place) const {
   slip.n = normal_at(*phase, theta);
   slip.t = elements::quarter_turn(slip.n);
   const elements::DiscPoint p = of_->disc.at(theta);
-  slip.beside = slip.relaxes = theta < phase->from || theta > phase->to || !(p.h > 0);
-  if (slip.beside) return slip;
+  slip.nearby = slip.relaxes = theta < phase->from || theta > phase->to || !(p.h > 0);
+  if (slip.nearby) return slip;
   const double across = slip.t.dot(p.v), speed = std::max(slip.n.dot(p.v) - p.dh, 0.0);
   slip.g = speed / p.h;
   slip.turning = across / p.h;
@@ -149,7 +149,7 @@ void DiscCourse::at(double angle, Values& values) const {
   }
   if (!has_friction(phase)) return;
   const Slip slip = slip_at(place);
-  const auto& [n, t, g, turning, turning_rate, first, second, is_beside, relaxes] = slip;
+  const auto& [n, t, g, turning, turning_rate, first, second, is_nearby, relaxes] = slip;
   values.by_q.col(2).head<2>() = contact_.mu * contact_.k_n * n;
   values.relaxes = relaxes;
   values.relaxed_by_q = values.by_q;
@@ -161,7 +161,7 @@ void DiscCourse::at(double angle, Values& values) const {
     values.by_v.col(2).head<2>() = k_t * by_normal * second * turning * t;
     values.by_a.topLeftCorner<2, 2>() = -k_t * second * t * t.transpose();
   }
-  if (is_beside) return;
+  if (is_nearby) return;
   values.by_q.topLeftCorner<2, 2>() = k_t * t * t.transpose();
   values.by_memory.col(0).head<2>() = k_t * t;
   values.rate_by_memory(0, 0) = -g;

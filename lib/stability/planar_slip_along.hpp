@@ -73,14 +73,14 @@ class DiscCourse {
     State state;
     double begin, end;
     std::size_t first_panel, last_panel;  // of slip; none: without friction
-    double from, to;                      // the part that is not beside an opening or a closing
+    double from, to;                      // the part that is not next to an opening or a closing
     double settled;                       // from there on its beginning is forgotten
   };
   // Slip at one angle: g, psi', psi'', and the moments a and b.
   struct Slip {
     Eigen::Vector2d n, t;
     double g, turning, turning_rate, first, second;
-    bool beside, relaxes;  // an opening or a closing
+    bool nearby, relaxes;  // an opening or a closing
   };
 
   struct Place {

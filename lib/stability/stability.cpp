@@ -20,7 +20,7 @@ constexpr int modes_kept = 50;           // of more
 constexpr double on_circle = 1e-4;       // at a zero; otherwise the multipliers jump
 constexpr double beyond_estimate = 5;    // an error of a multiplier, over its estimate
 constexpr double modulus_jump = 1e-5;    // of the largest modulus across 1
-constexpr double steep_share = 0.5;      // of a change, not made by the slope beside it: more is a jump
+constexpr double steep_share = 0.5;      // of a change, not made by the slope next to it: more is a jump
 constexpr std::size_t most_kept = 1000;  // places
 
 // Whether the structure is the same with both parameters: the frequency moves it where a rotor turns with it.
@@ -131,7 +131,7 @@ double beyond_rounding(double value) {
   return std::abs(value) < multiplier_rounding ? multiplier_rounding : value;
 }
 
-double beside_minus_one(const Multipliers& multipliers) {
+double near_minus_one(const Multipliers& multipliers) {
   return beyond_rounding(at_minus_one(multipliers));
 }
 
@@ -181,14 +181,14 @@ class Places {
     const auto other = other_side(here);
     if (other == all_.end()) return false;
     const double ahead = other->first - arclength;
-    auto beside = here;
-    const auto is_near = [&] { return std::abs(beside->first - arclength) < std::abs(ahead); };
+    auto nearby = here;
+    const auto is_near = [&] { return std::abs(nearby->first - arclength) < std::abs(ahead); };
     while (is_near()) {
-      if (beside == (ahead > 0 ? all_.begin() : std::prev(all_.end()))) return false;
-      beside = ahead > 0 ? std::prev(beside) : std::next(beside);
-      if (beside->second.stable() != here->second.stable()) return false;
+      if (nearby == (ahead > 0 ? all_.begin() : std::prev(all_.end()))) return false;
+      nearby = ahead > 0 ? std::prev(nearby) : std::next(nearby);
+      if (nearby->second.stable() != here->second.stable()) return false;
     }
-    const double slope = (here->second.margin - beside->second.margin) / (arclength - beside->first);
+    const double slope = (here->second.margin - nearby->second.margin) / (arclength - nearby->first);
     const double change = other->second.margin - here->second.margin;
     return std::abs(change - slope * ahead) < steep_share * std::abs(change);
   }
@@ -254,12 +254,13 @@ std::vector<continuation::Monitor> stability_monitors(const MultipliersAt& of_pe
                 if (all.empty() || !(std::abs(1 - std::abs(all.front())) > modulus_jump)) return false;
                 const Multipliers* map = of_map(now);
                 const Places& places = now.scratch.get<Places>();
-                const bool is_one = all.front().imag() == 0 && all.front().real() > 0;  // told by its fold
+                const bool is_one =
+                    all.front().imag() == 0 && all.front().real() > 0;  // reported by its fold
                 return !(map && places.is_explained(now.arclength, *map)) &&
                        !(is_one && places.is_steep(now.arclength));
               }),
           of_all(of_half_period ? event_kinds::symmetry_breaking : event_kinds::period_doubling,
-                 beside_minus_one, has_minus_one)};
+                 near_minus_one, has_minus_one)};
 }
 
 void set_apart(const std::string& kind, ResponsePoint& point) {

@@ -40,7 +40,7 @@ class StabilityAnalysis {
 
   /// At the last place of an evaluator of `problem`, whose parameters are p. False: unknown().
   bool move_to(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at, const continuation::Vector& p);
-  /// At unknowns of `problem`, where no element tells of contacts: forces are not evaluated.
+  /// At unknowns of `problem`, where no element reports contacts: forces are not evaluated.
   bool move_to(const hbm::HbmProblem& problem, continuation::In u, const continuation::Vector& p);
 
   const Multipliers& multipliers() const { return hill_ ? hill_->multipliers() : floquet_->multipliers(); }

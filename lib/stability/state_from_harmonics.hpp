@@ -17,7 +17,7 @@ Matrix dof_coefficients(const hbm::HbmProblem& problem, elements::In u, const co
 /// `problem`, for Floquet::compute().
 void courses_of(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& at,
                 std::vector<ElementCourse>& courses);
-/// The same at unknowns of `problem`, where no element tells of contacts.
+/// The same at unknowns of `problem`, where no element reports contacts.
 void courses_of(const hbm::HbmProblem& problem, elements::In u, std::vector<ElementCourse>& courses);
 
 }  // namespace arcslip::time

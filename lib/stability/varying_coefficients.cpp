@@ -9,7 +9,7 @@
 namespace arcslip::time {
 namespace {
 
-constexpr double beside_end = 1.0 / 1024;     // of a piece
+constexpr double near_end = 1.0 / 1024;       // of a piece
 constexpr double negligible_varying = 1e-13;  // coefficient, by the largest one
 
 const elements::Hysteresis* hysteresis_of(const elements::Law& law) {
@@ -267,7 +267,7 @@ void VaryingCoefficients::relax(double theta, const Matrix& W, const Matrix& V, 
 
 double VaryingCoefficients::left_out(double theta, double h) const {
   double largest = 0;
-  for (const double s : {beside_end, 1 - beside_end}) {
+  for (const double s : {near_end, 1 - near_end}) {
     const double angle = theta + h * s, c = std::cos(angle), sine = std::sin(angle);
     double sum = 0;
     for (const Hysteretic& law : hystereses_) {

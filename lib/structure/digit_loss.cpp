@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Index, Eigen::VectorXd;
 
-constexpr double free = 1e-9;  // x^T K x of a mode that is not told from a rigid-body motion
+constexpr double free = 1e-9;  // x^T K x of a mode that is not distinguished from a rigid-body motion
 
 // Quadratic forms of x in the entries of A, and in their absolute values.
 struct Forms {

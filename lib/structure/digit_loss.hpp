@@ -2,7 +2,7 @@
 // What the last digits of the entries of M and K leave of the lowest natural frequency.
 //
 // Each entry is rounded, so that x^T K x of a mode is known to eps |x|^T (|K| + sigma |M|) |x| only, four
-// times which is taken. Where large entries cancel, as in fine meshes and beside very stiff links, that is a
+// times which is taken. Where large entries cancel, as in fine meshes and next to very stiff links, that is a
 // considerable share of x^T K x = omega^2 x^T M x.
 
 #include <arcslip/structure/blocks.hpp>
@@ -15,7 +15,8 @@ struct Rounding {
   /// Of the square of the lowest natural frequency above free_below, relative to it; or more: of those below,
   /// relative to sigma. NaN where it is not known.
   double change = 0;
-  /// Natural frequencies below this, rad/s, are not told from 0: rigid-body motions. 0: there are none.
+  /// Natural frequencies below this, rad/s, are not distinguished from 0: rigid-body motions. 0: there are
+  /// none.
   double free_below = 0;
 };
 

@@ -8,7 +8,7 @@
 
 namespace arcslip::structure {
 
-/// A skew-symmetric matrix beside them: times s or not, times the speed or not.
+/// A skew-symmetric matrix next to them: times s or not, times the speed or not.
 struct ProjectedSkew {
   bool of_velocity, by_speed;
   Eigen::MatrixXd c, zz, zb;  // as of C

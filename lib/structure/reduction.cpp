@@ -237,9 +237,9 @@ class Reduction {
   // A vector of the space leads to A^-1 times each of these.
   MatrixXd next(const MatrixXd& added) const {
     MatrixXd right = M_.ii * added;
-    if (C_) right = beside(right, C_->ii * added);
-    if (K2_) right = beside(right, K2_->ii * added);
-    for (const Blocks& S : S_) right = beside(right, S.ii * added);
+    if (C_) right = nearby(right, C_->ii * added);
+    if (K2_) right = nearby(right, K2_->ii * added);
+    for (const Blocks& S : S_) right = nearby(right, S.ii * added);
     return right;
   }
 
@@ -250,11 +250,11 @@ class Reduction {
     AV_.resize(parts_.others, 0);
     for (MatrixXd* of : {&P_.M_zb, &P_.C_zb, &P_.K2_zb}) of->resize(0, parts_.kept);
     P_.f_z.resize(0, f_i_.cols());
-    MatrixXd right = beside(R_, f_i_);
-    if (C_) right = beside(right, R_C_);
-    if (K2_) right = beside(right, R_2_);
+    MatrixXd right = nearby(R_, f_i_);
+    if (C_) right = nearby(right, R_C_);
+    if (K2_) right = nearby(right, R_2_);
     for (ProjectedSkew& skew : P_.skew) skew.zb.resize(0, parts_.kept);
-    for (const MatrixXd& R : R_S_) right = beside(right, R);
+    for (const MatrixXd& R : R_S_) right = nearby(right, R);
     double error = HUGE_VAL, least = HUGE_VAL;
     Index estimated = 0;  // vectors at the last estimate
     int since_least = 0;  // estimates
@@ -354,13 +354,13 @@ class Reduction {
     result.free_below = found.free_below;
   }
 
-  static MatrixXd beside(const MatrixXd& a, const MatrixXd& b) {
+  static MatrixXd nearby(const MatrixXd& a, const MatrixXd& b) {
     MatrixXd both(a.rows(), a.cols() + b.cols());
     both << a, b;
     return both;
   }
 
-  // Appends to V what A^-1 right has beside it, in the norm of A. A V is kept: A times what is solved for is
+  // Appends to V what A^-1 right has next to it, in the norm of A. A V is kept: A times what is solved for is
   // right itself, so that nothing cancels.
   void append(MatrixXd right, Index most) {
     listen(stop_);

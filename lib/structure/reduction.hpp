@@ -15,11 +15,11 @@
 // parts need no case of their own. With a matrix C the space also has A_ii^-1 C_ii times each of its vectors,
 // which adds nothing where C is proportional. A row that no entry of the matrices links to b takes no part.
 //
-// Loads f on all rows become f_b + Psi^T f_i and V^T f_i. Their f_i stand beside R in the space: what b sees
+// Loads f on all rows become f_b + Psi^T f_i and V^T f_i. Their f_i stand next to R in the space: what b sees
 // of them, p R^T (A_ii - p M_ii)^-1 f_i, then has the moments that Z has.
 //
 // A stiffness K + Omega^2 K2 is expanded about the speed whose square is half that of the highest: K is the
-// stiffness there, R2 = K2_ii Psi + K2_ib stands beside R, and A_ii^-1 K2_ii times each vector of the space
+// stiffness there, R2 = K2_ii Psi + K2_ib stands next to R, and A_ii^-1 K2_ii times each vector of the space
 // is in it as well, which makes the mixed moments in s^2 and Omega^2 exact. Psi and V are those of all
 // speeds.
 //
@@ -55,7 +55,8 @@ struct Reduced {
   /// sqrt(f^T A^-1 f) in place of a row, at speeds from 0 to the highest: as the last vectors of V tell it;
   /// and what the last digits of the entries of M and K change of the square of the lowest natural frequency.
   double error = 0;
-  /// Natural frequencies below this, rad/s, are not told from 0: rigid-body motions. 0: there are none.
+  /// Natural frequencies below this, rad/s, are not distinguished from 0: rigid-body motions. 0: there are
+  /// none.
   double free_below = 0;
 };
 
@@ -64,7 +65,7 @@ class ReductionError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What the structure is reduced for, beside the rows that are kept.
+/// What the structure is reduced for, next to the rows that are kept.
 struct Purpose {
   double highest = 0;        // frequency, rad/s, above 0
   double highest_speed = 0;  // Omega, rad/s; 0: G and N as they stand, and no K2

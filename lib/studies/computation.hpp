@@ -27,9 +27,9 @@ class Items {
  public:
   virtual ~Items() = default;
   virtual std::size_t size() const = 0;
-  /// Tells item i which parameters are set, which it then does not list among its own.
+  /// Reports item i which parameters are set, which it then does not list among its own.
   virtual void put_set(std::size_t i, const scene::Setting& set) = 0;
-  /// Tells item i of which study it is.
+  /// Reports item i of which study it is.
   virtual void put_study(std::size_t i, const scene::Study& study) = 0;
 };
 
@@ -68,8 +68,8 @@ std::vector<std::unique_ptr<Items>> items_of_each(
 /// are left for their elements, and results are handed to the sink in the order of the combinations, by this
 /// thread. After a stop by options.progress no further combination is started, unless all that were are
 /// complete: then the next one is, whose result says that it was stopped. options.progress is called by one
-/// thread at a time, and told of the first combination that is being computed. Items are kept only if figures
-/// are requested, of up to scene::most_drawn combinations; of more, there is none.
+/// thread at a time, and reported of the first combination that is being computed. Items are kept only if
+/// figures are requested, of up to scene::most_drawn combinations; of more, there is none.
 std::vector<results::FigureData> run_computation(const scene::Scene& scene, const scene::Study& study,
                                                  const scene::RunOptions& options, std::size_t schema,
                                                  results::Sink& sink, const Computation& computation);

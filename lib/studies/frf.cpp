@@ -18,7 +18,7 @@ void check_shooting(const scene::file::Reading& reading, FrequencyRange& range) 
   check_method(reading, range);
   if (range.method == ResponseMethod::shooting && range.branches == Branches::all)
     reading.faults.add(reading.keys.find("branches").pointer,
-                       "found \"all\" beside the method \"shooting\", which follows one branch");
+                       "found \"all\" next to the method \"shooting\", which follows one branch");
 }
 
 scene::file::KeysOf<FrequencyRange> keys_of_frf() {

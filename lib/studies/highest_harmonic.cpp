@@ -35,9 +35,11 @@ std::string beyond_reduction(const Scene& scene, const Study& study) {
   const double order = static_cast<double>(scene.harmonics.order) / scene.harmonics.period,
                frequency = highest_frequency(scene, study), limit = scene.matrices->highest_frequency;
   if (!(order * frequency > limit)) return {};
-  const auto told = [&](double value) { return results::quantity(value, unit_name(scene.frequency_unit)); };
+  const auto reported = [&](double value) {
+    return results::quantity(value, unit_name(scene.frequency_unit));
+  };
   return "harmonics beyond highest_frequency of the reduction: " + results::quantity(order, "") + " times " +
-         told(frequency) + " is " + told(order * frequency) + ", above " + told(limit);
+         reported(frequency) + " is " + reported(order * frequency) + ", above " + reported(limit);
 }
 
 }  // namespace arcslip::scene

@@ -25,7 +25,7 @@ template <class Range>
 void check_method(const scene::file::Reading& reading, Range& range) {
   if (range.method == observables::ResponseMethod::shooting && range.stability.by_hill)
     reading.faults.add(reading.keys.find("stability").pointer,
-                       "found \"hill\" beside the method \"shooting\", whose multipliers are exact: must be "
+                       "found \"hill\" next to the method \"shooting\", whose multipliers are exact: must be "
                        "true or false");
 }
 

@@ -24,7 +24,7 @@ scene::file::KeysOf<ModeRange> keys_of_modes() {
                                   "period"));
   keys.add(scene::file::whole("true_peaks", &ModeRange::true_peaks, 0, most_true_peaks,
                               "at how many amplitudes, in equal ratios, the true peak of the frequency "
-                              "response is found beside the one that the mode predicts"));
+                              "response is found next to the one that the mode predicts"));
   return keys;
 }
 

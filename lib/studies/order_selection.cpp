@@ -174,14 +174,14 @@ int OrderSelection::next() const {
 }
 
 // Estimates are linear in what the harmonics left out change: larger ones than the response say nothing.
-double OrderSelection::told_error() const {
+double OrderSelection::reported_error() const {
   return error_ > largest_estimate ? no_value : error_;
 }
 
 void OrderSelection::tell(results::End& end) const {
   results::Value::List orders(orders_.begin(), orders_.end());
   end.facts.push_back({"accuracy", results::Object{{"wanted", wanted_},
-                                                   {"error", told_error()},
+                                                   {"error", reported_error()},
                                                    {"order", orders_.empty() ? order_ : orders_.back()},
                                                    {"orders", std::move(orders)}}});
   const std::string with = " with harmonics up to " + std::to_string(order_);
@@ -195,10 +195,10 @@ void OrderSelection::tell(results::End& end) const {
   if (is_reached())
     append(end.remark, "accuracy " + to_two_digits(error_) + with);
   else if (!ended_ && (end.status == results::Status::complete || !last_.failed))
-    append(end.doubt,
-           "the accuracy " + results::shortest(wanted_) + " is not reached: " +
-               (std::isfinite(told_error()) ? to_two_digits(told_error()) : "the error is not known") + with +
-               (given_up_ ? ", since a higher order was interrupted" : ""));
+    append(end.doubt, "the accuracy " + results::shortest(wanted_) + " is not reached: " +
+                          (std::isfinite(reported_error()) ? to_two_digits(reported_error())
+                                                           : "the error is not known") +
+                          with + (given_up_ ? ", since a higher order was interrupted" : ""));
 }
 
 }  // namespace arcslip::studies

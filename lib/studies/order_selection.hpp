@@ -81,7 +81,7 @@ class OrderSelection {
  private:
   double error_by_change(const Truncation& found) const;
   bool is_confirmed(const Truncation& found) const;
-  double told_error() const;
+  double reported_error() const;
   int next() const;
 
   double wanted_;

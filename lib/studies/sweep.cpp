@@ -62,7 +62,7 @@ KeyGroup<SweepSettings> points() {
 void check_number(const Reading& reading, SweepSettings& sweep) {
   if (sweep.spacing > 0 && reading.keys.has("points"))
     reading.faults.add(reading.keys.find("points").pointer,
-                       "found beside \"spacing\", which takes its place: give one of them");
+                       "found next to \"spacing\", which takes its place: give one of them");
   if (sweep.spacing > 0 && (sweep.to - sweep.from) / sweep.spacing > most_points)
     reading.faults.add(reading.keys.find("spacing").pointer,
                        "found " + scene::file::number_text(sweep.spacing) + ", which makes more than " +

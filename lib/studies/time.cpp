@@ -28,7 +28,7 @@ std::vector<scene::file::Word<TimeMethod>> time_method_words() {
 void check_start(const Reading& reading, const TimeSettings& time) {
   if (time.perturbation == TimeSettings{}.perturbation) return;
   const auto fault = [&](const char* why) {
-    reading.faults.add(reading.keys.find("perturbation").pointer, std::string("found beside ") + why);
+    reading.faults.add(reading.keys.find("perturbation").pointer, std::string("found next to ") + why);
   };
   if (time.start_amplitude == 0)
     fault("no \"start\", must be with one: a transient from rest is not disturbed");

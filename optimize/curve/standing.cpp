@@ -18,7 +18,7 @@ constexpr double largest_correction = 0.5;    // of y and tau
 constexpr double same_frequency = 0.02;       // relative
 constexpr double comparison_distance = 1e-2;  // of y: where an amplitude is compared with that at a minimum
 constexpr double no_change = 1e-10;           // of A, relative
-constexpr double no_weight = 1e-9;            // of a peak beside one that is flat and as high
+constexpr double no_weight = 1e-9;            // of a peak next to one that is flat and as high
 
 // [E_z E_sigma; row^T]
 Matrix bordered(const OptimalityEvaluator& at, const Vector& row) {
@@ -151,11 +151,11 @@ OptimalitySetting::Moved OptimalitySetting::hold_flat(ActiveSet& active, std::ve
       break;
     }
     if (active.held[k] != 0) continue;
-    const auto higher_beside = [&](double step) {  // at a minimum the slope may be zero, too
+    const auto higher_nearby = [&](double step) {  // at a minimum the slope may be zero, too
       design[k] = scaled[k].value(scaled[k].scaled(own) + step);
       return peaks.trace(design).amplitude() > (1 + no_change) * before;
     };
-    if (!higher_beside(-comparison_distance) || !higher_beside(comparison_distance)) {
+    if (!higher_nearby(-comparison_distance) || !higher_nearby(comparison_distance)) {
       result.flat = k;
       return result;
     }

@@ -42,9 +42,9 @@ const char* name(PeakKind kind) {
   return "";
 }
 
-observables::HeldBy held_by(PeakKind kind) {
-  if (kind == PeakKind::resonance) return observables::HeldBy::extremum;
-  return is_end(kind) ? observables::HeldBy::parameter : observables::HeldBy::corner;
+observables::PointCondition held_by(PeakKind kind) {
+  if (kind == PeakKind::resonance) return observables::PointCondition::extremum;
+  return is_end(kind) ? observables::PointCondition::parameter : observables::PointCondition::corner;
 }
 
 double PeakState::amplitude() const {
@@ -54,7 +54,7 @@ double PeakState::amplitude() const {
 
 PeakAmplitude::PeakAmplitude(std::shared_ptr<const model::Model> model, std::vector<int> over,
                              const observables::FrequencyWindow& window, observables::GoOn go_on,
-                             Watched watched)
+                             MonitoredEvents watched)
     : model_(std::move(model)),
       over_(std::move(over)),
       window_(window),
@@ -177,9 +177,9 @@ void PeakAmplitude::differences(Peak& peak, observables::Steps steps) {
     const double h = small_difference * std::max(std::abs(design[k]), small_difference);
     for (const int side : {0, 1}) {
       design[k] = state_.design[k] + (side == 0 ? -h : h);
-      const PeakState beside = response(design, steps);
+      const PeakState nearby = response(design, steps);
       double nearest = HUGE_VAL;
-      for (const Peak& other : beside.peaks) {
+      for (const Peak& other : nearby.peaks) {
         if (is_end(other.kind) || !(std::abs(other.omega() - peak.omega()) < nearest)) continue;
         nearest = std::abs(other.omega() - peak.omega());
         observables::Sensitivity there(problem_);

@@ -16,8 +16,8 @@
 // The response is traced anew if a peak cannot be tracked, because it vanishes, splits, leaves the window or
 // reaches a corner; at every design with a kink; if a parameter has changed by a factor of e since the last
 // response; and if the slopes at the last response predict a new peak. Peaks below a share of the highest
-// (Watched) are not watched: an unexpected new peak is detected at the next response, such as that at the end
-// of a search.
+// (MonitoredEvents) are not watched: an unexpected new peak is detected at the next response, such as that at
+// the end of a search.
 
 #include <arcslip/analyses/branches/frequency_branch.hpp>
 #include <arcslip/analyses/curves/sensitivity.hpp>
@@ -44,7 +44,7 @@ const char* name(PeakKind kind);
 
 /// The condition of such a peak. Of a kink that of a corner, which the truncation estimate flags where it is
 /// none.
-observables::HeldBy held_by(PeakKind kind);
+observables::PointCondition held_by(PeakKind kind);
 
 struct Peak {
   PeakKind kind = PeakKind::resonance;
@@ -69,13 +69,13 @@ struct Peak {
 inline constexpr double watched_share = 0.75;
 
 /// Share of the highest amplitude below which peaks are not watched. Kinks cannot be tracked at all.
-struct Watched {
+struct MonitoredEvents {
   double peaks = watched_share, kinks = 0.9;
 };
 
 /// With limits on observables. A peak is watched before they apply to it, so that they enter before they
 /// are exceeded.
-inline constexpr Watched watched_for_limits{0.6, watched_share};
+inline constexpr MonitoredEvents watched_for_limits{0.6, watched_share};
 
 /// The peaks at one design.
 struct PeakState {
@@ -108,7 +108,7 @@ class PeakAmplitude {
   /// this object must not be used any more, except to observe an earlier state.
   PeakAmplitude(std::shared_ptr<const model::Model> model, std::vector<int> over,
                 const observables::FrequencyWindow& window, observables::GoOn go_on = {},
-                Watched watched = {});
+                MonitoredEvents watched = {});
   ~PeakAmplitude();
 
   /// The peaks at a design, by tracking those of the last one. The reference is valid until the next call.
@@ -174,7 +174,7 @@ class PeakAmplitude {
   /// Takes the tracked peaks of a design as its state.
   void move_to(std::span<const double> design, std::vector<Peak>&& tracked);
   bool holds(std::size_t peak, const continuation::Vector& x);
-  bool came_up() const;
+  bool new_peak_expected() const;
 
   struct LowerPeak {
     double amplitude;
@@ -201,7 +201,7 @@ class PeakAmplitude {
   std::vector<int> over_;
   observables::FrequencyWindow window_;
   observables::GoOn go_on_;
-  Watched watched_;
+  MonitoredEvents watched_;
   PeakState state_;
   std::vector<double> traced_;    // the design of the last response
   std::vector<LowerPeak> lower_;  // the unwatched peaks there

@@ -42,7 +42,7 @@ double slope_on_way(double from, double to, double s) {
 
 // Whether a new peak is expected at the design of the state, by logarithmic extrapolation of the unwatched
 // peaks from the last response.
-bool PeakAmplitude::came_up() const {
+bool PeakAmplitude::new_peak_expected() const {
   return std::any_of(lower_.begin(), lower_.end(), [&](const LowerPeak& peak) {
     double level = 0;
     for (std::size_t k = 0; k < traced_.size(); ++k)
@@ -65,7 +65,7 @@ const PeakState& PeakAmplitude::at(std::span<const double> design) {
   for (std::size_t i = 0; i < moved.size(); ++i)
     if (!follow(i, design, moved[i])) return trace(design);
   move_to(design, std::move(moved));
-  return came_up() ? trace(design) : state_;
+  return new_peak_expected() ? trace(design) : state_;
 }
 
 void PeakAmplitude::move_to(std::span<const double> design, std::vector<Peak>&& tracked) {

@@ -23,7 +23,7 @@ struct DesignVariable {
 /// Observables: the quantities of every response (observables/quantities.hpp), such as "frequency" (in the
 /// scene's unit) and "energy_friction" (J per period); for an element NAME "NAME.equivalent_stiffness" and
 /// "NAME.equivalent_damping", with friction "NAME.stick_percent" and "NAME.energy", with a normal direction
-/// "NAME.open_percent", "NAME.normal_load_max" and "NAME.normal_load_min", where it is told
+/// "NAME.open_percent", "NAME.normal_load_max" and "NAME.normal_load_min", where it is reported
 /// "NAME.mean_force_min" and "NAME.mean_force_max", with a wear coefficient "NAME.wear_rate"; likewise the
 /// totals of a patch NAME.
 struct ObservableLimit {

@@ -46,7 +46,7 @@ void DesignEvaluations::add(const Scenario& scenario) {
 }
 
 void DesignEvaluations::evaluate(std::span<const double> design, bool trace) {
-  if (!trace && cases_.stand_at(design)) return;
+  if (!trace && cases_.is_at(design)) return;
   trace = trace || trace_all_;
   const int responses = cases_.work().responses;
   if (!trace) cases_.at(design);

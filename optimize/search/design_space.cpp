@@ -16,7 +16,7 @@ constexpr int samples_of_all = 8, samples_of_each = 8;                          
 constexpr const char* linear_name = "a linear limit";
 
 // Whether the responses tell the mean force that a contact may hold.
-bool tells_mean_force(const model::Model& model, const model::NonlinearPart& part) {
+bool reports_mean_force(const model::Model& model, const model::NonlinearPart& part) {
   const auto element = part.law->element(
       model.harmonics, {model.settings.friction == scene::Friction::exact, model.settings.samples});
   const Eigen::Index size = model.harmonics.size() * (part.law->directions() + part.law->auxiliary());
@@ -167,7 +167,7 @@ PeakAmplitude::Observable DesignSpace::observable(const std::string& name) const
       const bool is_of_load = path == "open_percent" || path.starts_with("normal_load");
       if ((is_of_friction && !element.law->has_contact()) ||
           (is_of_load && !element.law->has_normal_load()) ||
-          (path.starts_with("mean_force") && !tells_mean_force(*model_, element)) ||
+          (path.starts_with("mean_force") && !reports_mean_force(*model_, element)) ||
           (path == "wear_rate" && element.wear_coefficient == 0) ||
           !is_wanted(element.name + "." + std::string(path)))
         continue;

@@ -26,7 +26,7 @@ void LoadCases::trace(std::span<const double> design, observables::Steps steps) 
   studies::in_order(size(), threads_, goes_on, trace, [](const PeakState*) {});
 }
 
-bool LoadCases::stand_at(std::span<const double> design) const {
+bool LoadCases::is_at(std::span<const double> design) const {
   return std::all_of(all_.begin(), all_.end(), [&](const Each& each) {
     return std::equal(design.begin(), design.end(), each.peaks->state().design.begin(),
                       each.peaks->state().design.end());

@@ -29,7 +29,7 @@ class LoadCases {
   /// Moves all cases to a design, by tracking their peaks or by a new response for each.
   void at(std::span<const double> design);
   void trace(std::span<const double> design, observables::Steps steps = observables::Steps::events);
-  bool stand_at(std::span<const double> design) const;
+  bool is_at(std::span<const double> design) const;
   /// Whether all were moved by new responses.
   bool are_traced() const;
 

@@ -290,7 +290,7 @@ void Search::stop_at_higher_peak() {
 }
 
 bool Search::release() {
-  if (ended_ || algorithm_.global || !cases().stand_at(best().design)) return false;
+  if (ended_ || algorithm_.global || !cases().is_at(best().design)) return false;
   if (!(best().value < (1 - gain) * stuck_value_)) return false;
   stuck_value_ = best().value;
   std::vector<std::vector<double>> designs;
@@ -314,7 +314,7 @@ bool Search::release() {
     if (!within || excess == 0) break;
   }
   if (!from) return false;
-  if (!cases().stand_at(*from)) cases().trace(*from);
+  if (!cases().is_at(*from)) cases().trace(*from);
   note("at " + stuck + " a friction element sticks; the search continued with it slipping, from " +
        space().text(*from));
   start_ = *from;
@@ -325,7 +325,7 @@ bool Search::add_worst_scatter() {
   if (!designs_.scenarios().scatter() || result_.status != Status::complete || best().design.empty())
     return false;
   start_ = best().design;
-  if (!cases().stand_at(start_)) cases().trace(start_);
+  if (!cases().is_at(start_)) cases().trace(start_);
   ++result_.scatter_rounds;
   designs_.begin("the worst-case search");
   const std::vector<Scenario> worse = designs_.worse_scatter();

@@ -39,10 +39,10 @@ class OtherResponses {
       add_highest("sweep downwards");
     }
     if (observables::may_have_several_responses(*model_)) {
-      beside(window_.upper, upper, -1);
+      nearby(window_.upper, upper, -1);
       const auto lower =
           observables::first_response(model_, window_.lower, window_.upper - window_.lower, go_on_);
-      beside(window_.lower, lower, 1);
+      nearby(window_.lower, lower, 1);
     }
     by_deflation();
     return std::move(found_);
@@ -59,8 +59,8 @@ class OtherResponses {
            (u - optimum_.upper_end).norm() <= same_response * u.norm();
   }
 
-  // From further responses at an end of the window, beside the one that a branch begins or ends with.
-  void beside(double end, const observables::FirstResponse& first, int direction) {
+  // From further responses at an end of the window, next to the one that a branch begins or ends with.
+  void nearby(double end, const observables::FirstResponse& first, int direction) {
     if (!first.u) return;
     const Vector p = hbm::parameters_at(*first.problem, end);
     for (const Vector& u : observables::further_responses(first.problem, p, {*first.u}, go_on_)) {

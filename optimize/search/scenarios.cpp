@@ -119,7 +119,7 @@ std::unique_ptr<PeakAmplitude> Scenarios::peaks(const Scenario& scenario, observ
     model = std::make_shared<const model::Model>(model::build(scene));
   }
   return std::make_unique<PeakAmplitude>(model, space_.parameters(), window_, std::move(go_on),
-                                         problem_.limits.empty() ? Watched{} : watched_for_limits);
+                                         problem_.limits.empty() ? MonitoredEvents{} : watched_for_limits);
 }
 
 LoadCaseResult Scenarios::result(const Scenario& scenario) const {

@@ -55,7 +55,7 @@ class Search {
   // True if the search is to continue, from another start or by another algorithm. Otherwise certifies
   // the optimum.
   bool goes_on();
-  bool stand_at_best();
+  bool move_to_best();
   // An algorithm may report convergence at no minimum: coming from outside the limits it may have moved to
   // a lower infeasible design, and its best is then only the last feasible one. Other algorithms continue
   // from it.

@@ -56,10 +56,10 @@ bool Search::goes_on() {
     return false;
   }
   if (result_.stop.reason == reasons::flat) return false;
-  if (!stand_at_best()) return false;
+  if (!move_to_best()) return false;
   if (const Balance left = balance_here(designs_); !is_stationary(left)) return refine(left);
   if (look_elsewhere(true)) return true;
-  if (interrupted() || !options_.certificate || !stand_at_best()) return false;
+  if (interrupted() || !options_.certificate || !move_to_best()) return false;
   designs_.begin("the certificate");
   describe();
   result_.certificate = certify(
@@ -68,8 +68,8 @@ bool Search::goes_on() {
   return !interrupted() && passed_lower();
 }
 
-bool Search::stand_at_best() {
-  if (!cases().stand_at(best().design)) cases().trace(best().design, observables::Steps::curve);
+bool Search::move_to_best() {
+  if (!cases().is_at(best().design)) cases().trace(best().design, observables::Steps::curve);
   return std::isfinite(cases().value());
 }
 
@@ -333,7 +333,7 @@ void Search::describe() {
     }
     result_.cases.push_back(std::move(each));
   }
-  if (!cases().stand_at(best().design)) {  // interrupted elsewhere
+  if (!cases().is_at(best().design)) {  // interrupted elsewhere
     for (std::size_t c = 0; c < result_.cases.size(); ++c)
       result_.cases[c].active =
           cases().groups() > 1 || cases().weight(c) * result_.cases[c].amplitude >= (1 - active_case) * most;

@@ -21,8 +21,8 @@ constexpr double past_mode = 1.1;  // of the outermost natural frequency: the en
 constexpr double wider = 1.3;      // of its other end, where the amplitude is largest there
 constexpr double far_beyond = 10;  // of its end, where no natural frequency is left beyond
 constexpr int most_windows = 5;
-constexpr int end_digits = 3;   // of the ends of a window
-constexpr int told_digits = 5;  // of other numbers
+constexpr int end_digits = 3;       // of the ends of a window
+constexpr int reported_digits = 5;  // of other numbers
 constexpr double rounding = 1e-9;
 
 /// The best design, and the corners of the bounds: of many parameters the two where all are at the same end,
@@ -96,7 +96,7 @@ const Span* nearest_beyond(const FrequencyWindow& window, const std::vector<Span
 }
 
 std::string frequency(double omega, scene::FrequencyUnit unit) {
-  return observables::to_digits(omega / scene::to_rad_per_s(unit), told_digits);
+  return observables::to_digits(omega / scene::to_rad_per_s(unit), reported_digits);
 }
 
 /// "42.7 to 54.8 Hz", or "42.7 Hz" where both are the same.
@@ -173,7 +173,7 @@ BeyondEnd look_beyond(DesignEvaluations& designs, const ValueAtEnd& value, scene
   for (int k = 0; k < most_windows; ++k) {
     const auto highest = highest_in(peaks, design, window);
     if (!highest) break;
-    const std::string there = observables::to_digits(highest->amplitude, told_digits) + " m at " +
+    const std::string there = observables::to_digits(highest->amplitude, reported_digits) + " m at " +
                               between(highest->omega(), highest->omega(), unit);
     if (!is_end(highest->kind)) {
       found.text += "; from " + between(window.lower, window.upper, unit) + " this design has a peak of " +

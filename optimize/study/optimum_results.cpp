@@ -65,8 +65,7 @@ void add_design(const scene::Scene& scene, const OptimumProblem& problem, Get de
 
 TableOf<Evaluation> course(const scene::Scene& scene, const OptimumProblem& problem) {
   TableOf<Evaluation> table;
-  add_design(
-      scene, problem, [](const Evaluation& at) -> const auto& { return at.design; }, table);
+  add_design(scene, problem, [](const Evaluation& at) -> const auto& { return at.design; }, table);
   table.add({"amplitude"}, "m", "of the criterion; null: unbounded",
             [](const Evaluation& at) { return at.amplitude; });
   return table;
@@ -228,8 +227,7 @@ TableOf<OptimumPoint> points(const scene::Scene& scene, const OptimumProblem& pr
   TableOf<OptimumPoint> table;
   table.add({along}, studies::parameter_unit(scene, along), "the continuation parameter",
             [](const OptimumPoint& at) { return at.along; });
-  add_design(
-      scene, problem, [](const OptimumPoint& at) -> const auto& { return at.design; }, table);
+  add_design(scene, problem, [](const OptimumPoint& at) -> const auto& { return at.design; }, table);
   table.add({"amplitude"}, "m", "A_max", [](const OptimumPoint& at) { return at.amplitude; });
   table.add({"peaks"}, "", "the active peaks", [&scene](const OptimumPoint& at) {
     Value::List peaks;
@@ -282,7 +280,7 @@ studies::Described<OptimumResult> described_optima(const scene::Scene& scene, co
                          .list = "optima",
                          .noun = "search",
                          .tables = {{"course", of_course->columns()}},
-                         .beside = {"optimum", "algorithm", "evaluations", "stop"}};
+                         .nearby = {"optimum", "algorithm", "evaluations", "stop"}};
   if (has_cases(problem)) schema.tables.push_back({"cases", of_cases->columns(), {"elements"}});
   return {std::move(schema), [&scene, of_course, of_cases](const OptimumResult& each) {
             results::Result result{.schema = 0,

@@ -116,35 +116,35 @@ class Teller {
  public:
   Teller(const observables::ProgressCallback& progress, const scene::Scene& scene, const char* item)
       : progress_(progress), unit_(scene::to_rad_per_s(scene.frequency_unit)) {
-    told_.item = item;
-    told_.share_done = std::numeric_limits<double>::quiet_NaN();
-    told_.counted = "evaluations";
-    told_.phase = "the initial design";
+    reported_.item = item;
+    reported_.share_done = std::numeric_limits<double>::quiet_NaN();
+    reported_.counted = "evaluations";
+    reported_.phase = "the initial design";
   }
 
-  void begin(const char* phase) { told_.phase = phase; }
-  const char* phase() const { return told_.phase; }
+  void begin(const char* phase) { reported_.phase = phase; }
+  const char* phase() const { return reported_.phase; }
 
   bool tell(const OptimumProgress& now) {
-    told_.points = now.evaluations;
-    told_.counted = now.evaluations == 1 ? "evaluation" : "evaluations";
-    told_.frequency = now.omega / unit_;
-    told_.best = std::isfinite(now.best) ? now.best : observables::no_value;
-    told_.phase = now.phase;
+    reported_.points = now.evaluations;
+    reported_.counted = now.evaluations == 1 ? "evaluation" : "evaluations";
+    reported_.frequency = now.omega / unit_;
+    reported_.best = std::isfinite(now.best) ? now.best : observables::no_value;
+    reported_.phase = now.phase;
     return again();
   }
   // Of a curve of optima. share: of its way.
   bool tell(long points, const OptimumPoint& now, double share) {
-    told_.points = points;
-    told_.counted = "points";
-    told_.frequency = now.response.omega / unit_;
-    told_.best = now.amplitude;
-    told_.phase = "the curve";
-    told_.share_done = share;
+    reported_.points = points;
+    reported_.counted = "points";
+    reported_.frequency = now.response.omega / unit_;
+    reported_.best = now.amplitude;
+    reported_.phase = "the curve";
+    reported_.share_done = share;
     return again();
   }
   bool again() {
-    go_on = go_on && (!progress_ || progress_(told_));
+    go_on = go_on && (!progress_ || progress_(reported_));
     return go_on;
   }
 
@@ -153,7 +153,7 @@ class Teller {
  private:
   const observables::ProgressCallback& progress_;
   double unit_;
-  observables::Progress told_;
+  observables::Progress reported_;
 };
 
 // Adds the curves of figures and the direct method, as long as the watch allows; otherwise the result is

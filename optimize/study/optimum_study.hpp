@@ -87,7 +87,7 @@ OptimumSettings with_places(const scene::Scene& scene, OptimumSettings settings)
 /// Throws OptionsError for a limit on an unknown observable, and as optimum() does for an invalid design.
 void check_limits(const scene::Scene& scene, const OptimumProblem& problem);
 
-/// What a study does beside its search.
+/// What a study does next to its search.
 struct OptimumExtent {
   bool curves = true;  // of the cases, for figures
   bool alone = true;   // the only result: with responses at half and twice the optimum

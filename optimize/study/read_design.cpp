@@ -148,7 +148,8 @@ void add_product(const Location& place, const Reading& reading, OptimumProblem& 
   problem.cases = std::move(cases);
 }
 
-LoadCase read_case(const Location& place, const Reading& reading, const std::vector<scene::Taken>& already) {
+LoadCase read_case(const Location& place, const Reading& reading,
+                   const std::vector<scene::ParameterUse>& already) {
   Faults& faults = reading.faults;
   LoadCase one;
   const Keys keys(place, {"set", "weight", "response"}, faults);
@@ -196,7 +197,7 @@ void read_cases(const Reading& reading, OptimumProblem& problem) {
     faults.add(place.pointer, "found " + std::to_string(list->size()) + " cases, must be at most " +
                                   std::to_string(largest_cases));
   } else {
-    const std::vector<scene::Taken> already = taken(problem);
+    const std::vector<scene::ParameterUse> already = taken(problem);
     std::vector<LoadCase> cases;
     for (std::size_t i = 0; i < list->size(); ++i)
       cases.push_back(read_case({&(*list)[i], child(place.pointer, i)}, reading, already));
@@ -207,7 +208,7 @@ void read_cases(const Reading& reading, OptimumProblem& problem) {
 void read_scatter(const Reading& reading, OptimumProblem& problem) {
   const Location place = reading.keys.find("scatter");
   Faults& faults = reading.faults;
-  const std::vector<scene::Taken> already = taken(problem);
+  const std::vector<scene::ParameterUse> already = taken(problem);
   std::vector<DesignVariable> scatter;
   for (const Member* member : members(place, faults)) {
     const Location item{&member->value, child(place.pointer, member->key)};

@@ -24,6 +24,6 @@ void read_scatter(const scene::file::Reading& reading, OptimumProblem& problem);
 void check_criterion(const scene::file::Reading& reading, const OptimumProblem& problem);
 
 /// The parameters of the design, of its cases and of the scatter.
-std::vector<scene::Taken> taken(const OptimumProblem& problem);
+std::vector<scene::ParameterUse> taken(const OptimumProblem& problem);
 
 }  // namespace arcslip::optimize

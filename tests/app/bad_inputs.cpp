@@ -145,7 +145,7 @@ std::vector<BadInput> make() {
       bare("peaks without a study", {"peaks", "bare.json"},
            "the scene has no study of kind peaks: give --over, --from, --to and "
            "--frequency, or add such a study to the scene"),
-      bare("trace without a study, half told", {"trace", "bare.json", "--over", "k.value", "--to", "200"},
+      bare("trace without a study, half reported", {"trace", "bare.json", "--over", "k.value", "--to", "200"},
            "the scene has no study of kind trace: give --from and --frequency"),
       peaks("--over another parameter than the study's", {"--over", "m.value"},
             "the scene has no study of kind peaks over m.value: give --from and --to"),

@@ -48,7 +48,7 @@ TEST_CASE("frf --json - prints one object and nothing else") {
   CHECK(place.files() == std::vector<std::string>{"scene.json"});
 }
 
-TEST_CASE("an accuracy chooses the harmonics, and the order is told") {
+TEST_CASE("an accuracy chooses the harmonics, and the order is reported") {
   const Workplace place;
   const std::vector<std::string> accurate{"frf",        "scene.json", "--set", "damper.normal_load=3",
                                           "--accuracy", "1e-6"};
@@ -135,7 +135,7 @@ TEST_CASE("the resolved scene that run leaves gives the same results again, with
   CHECK(place.read("first/frf.csv") == place.read("second/frf.csv"));
 }
 
-TEST_CASE("run writes every study into out/NAME and tells the places of the files") {
+TEST_CASE("run writes every study into out/NAME and reports the places of the files") {
   if (!have_gnuplot()) {
     WARN("gnuplot is not there");
     return;
@@ -164,7 +164,7 @@ TEST_CASE("run writes every study into out/NAME and tells the places of the file
   CHECK(Json::parse(place.read("out/two/frf.json"))["branches"].size() == 12);
 }
 
-TEST_CASE("run tells of each branch in one file which study it is of") {
+TEST_CASE("run reports each branch in one file which study it is of") {
   const Workplace place;
   Json scene = Json::parse(place.read("scene.json"));
   scene["studies"].erase(2);  // an optimum has a table of its own
@@ -222,7 +222,7 @@ TEST_CASE("check prints the resolved scene, which is a fixed point") {
   CHECK((quiet.out + quiet.err).empty());
 }
 
-TEST_CASE("harmonics beyond a reduction are told with the scene, with its results and in them") {
+TEST_CASE("harmonics beyond a reduction are reported with the scene, with its results and in them") {
   const Workplace place;
   place.write("beam.json",
               R"({"format": "arcslip-scene-1", "structure": {"beam": {"elements": 20, "length": 1,
@@ -234,14 +234,14 @@ TEST_CASE("harmonics beyond a reduction are told with the scene, with its result
     "studies": [{"name": "frf", "kind": "frf", "from": 15, "to": 20}]})");
   const std::string doubt =
       "harmonics beyond highest_frequency of the reduction: 5 times 20 Hz is 100 Hz, above 80 Hz";
-  const auto tells = [](const Ended& ended, const std::string& what) {
+  const auto reports = [](const Ended& ended, const std::string& what) {
     return ended.err.find(what) != std::string::npos;
   };
-  CHECK(tells(run(place, {"check", "beam.json"}), "the study \"frf\" has " + doubt));
+  CHECK(reports(run(place, {"check", "beam.json"}), "the study \"frf\" has " + doubt));
   const Ended beyond = run(place, {"frf", "beam.json", "--json", "-"});
   CHECK(beyond.exit_code == 0);
-  CHECK(tells(beyond, "the study \"frf\" has " + doubt));
-  CHECK(tells(beyond, "branch 1 complete, but " + doubt));
+  CHECK(reports(beyond, "the study \"frf\" has " + doubt));
+  CHECK(reports(beyond, "branch 1 complete, but " + doubt));
   const Json json = Json::parse(beyond.out);
   CHECK(json["branches"][0]["doubt"] == doubt);
   CHECK(json["reduction"]["rows"] == 40);
@@ -250,7 +250,7 @@ TEST_CASE("harmonics beyond a reduction are told with the scene, with its result
   CHECK(json["reduction"]["error"].get<double>() < 1e-7);
   CHECK(json["reduction"]["highest_frequency"] == 80.0);
   const Ended within = run(place, {"frf", "beam.json", "--to", "16", "--json", "-"});
-  CHECK_FALSE(tells(within, "harmonics beyond"));
+  CHECK_FALSE(reports(within, "harmonics beyond"));
   CHECK_FALSE(Json::parse(within.out)["branches"][0].contains("doubt"));
 }
 

@@ -132,7 +132,7 @@ TEST_CASE("the resolved scene that peaks leaves gives the same curve again, with
   CHECK(first["branches"][0]["points"] == second["branches"][0]["points"]);
 }
 
-TEST_CASE("a study over a parameter that cannot begin is told, with exit code 3 and whole files") {
+TEST_CASE("a study over a parameter that cannot begin is reported, with exit code 3 and whole files") {
   const Workplace place;
   const Ended ended = run(place, {"folds", "scene.json", "--harmonics", "3", "--over", "damper.normal_load",
                                   "--from", "1", "--to", "2", "--frequency", "18", "22", "--json", "a.json"});

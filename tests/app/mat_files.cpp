@@ -47,7 +47,7 @@ void write_program(const Workplace& place, const std::string& commands) {
 
 }  // namespace
 
-TEST_CASE("the command finds the program that reads MATLAB files beside itself, and no other") {
+TEST_CASE("the command finds the program that reads MATLAB files next to itself, and no other") {
   const Workplace place;
   write_scene(place);
   const Ended checked = run(place, {"check", "mat.json", "--quiet"}, nothing_set());

@@ -117,7 +117,7 @@ TEST_CASE("a study of kind optimum runs with the others, with files and figures"
   }
 }
 
-TEST_CASE("the progress of a search tells its phase, its evaluations and the least amplitude so far") {
+TEST_CASE("the progress of a search reports its phase, its evaluations and the least amplitude so far") {
   const Workplace place;
   std::ifstream two_dampers(source_folder() + "/examples/two_dampers/scene.json");
   Json scene = Json::parse(two_dampers);
@@ -135,13 +135,13 @@ TEST_CASE("the progress of a search tells its phase, its evaluations and the lea
   int evaluations = 0;
   double best = HUGE_VAL;
   for (std::sregex_iterator at(ended.err.begin(), ended.err.end(), line), none; at != none; ++at) {
-    const std::smatch& told = *at;
-    phases.insert(told[1]);
-    CHECK(std::stoi(told[2]) >= evaluations);
-    evaluations = std::stoi(told[2]);
-    if (!told[3].matched) continue;
-    CHECK(std::stod(told[3]) <= best);
-    best = std::stod(told[3]);
+    const std::smatch& reported = *at;
+    phases.insert(reported[1]);
+    CHECK(std::stoi(reported[2]) >= evaluations);
+    evaluations = std::stoi(reported[2]);
+    if (!reported[3].matched) continue;
+    CHECK(std::stod(reported[3]) <= best);
+    best = std::stod(reported[3]);
   }
   CHECK(phases.contains(
       "the search elsewhere"));  // by far the longest: there is a line every tenth of a second

@@ -157,7 +157,7 @@ TEST_CASE("cases of each level have figures of their own, with a line for each c
   }
 }
 
-TEST_CASE("figures of results that are no more do not stay beside those of fewer results") {
+TEST_CASE("figures of results that are no more do not stay next to those of fewer results") {
   const Workplace place;
   Json study = study_of_levels(), other = study_of_levels();
   other["name"] = "levels_3";
@@ -279,7 +279,7 @@ TEST_CASE("a search that reaches its limit of evaluations ends early, with the b
   CHECK(found["evaluations"] == 2);
 }
 
-TEST_CASE("a limit on a sum of parameters is met, and told, with what it costs") {
+TEST_CASE("a limit on a sum of parameters is met, and reported, with what it costs") {
   const Workplace place;
   const auto least = [&](double limit, std::string& out) {
     Json study = study_of_levels();

@@ -60,7 +60,7 @@ void check_complete(const std::string& file, const std::string& text, const std:
 
 }  // namespace
 
-TEST_CASE("whatever a path is, its failure is told, and costs none of what goes elsewhere") {
+TEST_CASE("whatever a path is, its failure is reported, and costs none of what goes elsewhere") {
   for (const Verb& verb : verbs) {
     std::map<std::string, std::string> models;
     for (const OutputPath& row : output_paths()) {

@@ -96,7 +96,7 @@ TEST_CASE("one study alone leaves the files of another whose name begins with it
   CHECK(place.files() == before);
 }
 
-TEST_CASE("tables of earlier results that these have no counterpart of are told, and stay") {
+TEST_CASE("tables of earlier results that these have no counterpart of are reported, and stay") {
   const Workplace place;
   write_tiny_scene(place);
   place.write("a.cases.csv", "my own\n");
@@ -267,7 +267,7 @@ TEST_CASE("a link to what is not there yet is followed") {
   CHECK(Json::parse(place.read("far/a.json"))["branches"][0]["status"] == "complete");
 }
 
-TEST_CASE("figures of an earlier run do not stand beside other data where gnuplot fails") {
+TEST_CASE("figures of an earlier run do not stand next to other data where gnuplot fails") {
   const Workplace place;
   write_tiny_scene(place);
   // As gnuplot would: what its script sets, with the suffix of its command line.
@@ -299,7 +299,7 @@ TEST_CASE("figures of an earlier run do not stand beside other data where gnuplo
                                          "results/one_stick.svg.4711.tmp"});
 }
 
-TEST_CASE("a signal while figures are drawn ends gnuplot and is told, with exit code 3") {
+TEST_CASE("a signal while figures are drawn ends gnuplot and is reported, with exit code 3") {
   const Workplace place;
   write_tiny_scene(place);
   const auto hanging = with_gnuplot(place, "echo $$ > drawing; exec sleep 600\n");

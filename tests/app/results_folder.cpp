@@ -1,5 +1,5 @@
 // Folders of results: no input is replaced, nothing of others is removed, and files that do not belong
-// together are told.
+// together are reported.
 
 #include "results_folder.hpp"
 
@@ -328,7 +328,7 @@ TEST_CASE("a gnuplot that cannot be started, or is killed, costs no result and n
   }
 }
 
-TEST_CASE("a scene of an interrupted set is refused, and one that was changed since is told") {
+TEST_CASE("a scene of an interrupted set is refused, and one that was changed since is reported") {
   const Workplace place;
   write_matrices(place, 4000);
   REQUIRE(run(place, {"reduce", "solid.json", "--out", "r", "--quiet"}).exit_code == 0);
@@ -359,7 +359,7 @@ TEST_CASE("a scene of an interrupted set is refused, and one that was changed si
   CHECK(run(place, {"check", "r/reduced.json", "--quiet"}).exit_code == 0);
 }
 
-TEST_CASE("killed at any moment, a mix of old and new files is told by the manifest") {
+TEST_CASE("killed at any moment, a mix of old and new files is determined by the manifest") {
   const Workplace place;
   write_matrices(place, 4000);
   fs::copy(place / "mesh", place / "mesh2");
@@ -403,7 +403,7 @@ TEST_CASE("killed at any moment, a mix of old and new files is told by the manif
         for (const auto& [name, hash] : set["files"].items()) named.insert(name);
         CAPTURE(one.front(), i, set["name"].get<std::string>());
         if (set["complete"]) CHECK(wrong_file(place, folder, set) == "");
-        seen.insert(set["complete"] ? "whole" : "told");
+        seen.insert(set["complete"] ? "whole" : "reported");
       }
       for (const auto& entry : fs::directory_iterator(place / folder)) {
         const std::string name = entry.path().filename();
@@ -412,7 +412,7 @@ TEST_CASE("killed at any moment, a mix of old and new files is told by the manif
       }
     }
   }
-  CHECK(seen == std::set<std::string>{"told", "whole"});
+  CHECK(seen == std::set<std::string>{"reported", "whole"});
 }
 
 TEST_CASE("a terminal that is closed keeps the results so far, as SIGTERM does") {
@@ -433,7 +433,7 @@ TEST_CASE("a terminal that is closed keeps the results so far, as SIGTERM does")
   CHECK(branches.front()["status"] == "complete");
 }
 
-TEST_CASE("too little memory for what BLAS takes is told") {
+TEST_CASE("too little memory for what BLAS takes is reported") {
   if (ARCSLIP_SANITIZED) return;  // the sanitizers take terabytes of addresses
   const Workplace place;
   place.write("bar.json", R"({"format": "arcslip-scene-1", "structure": {

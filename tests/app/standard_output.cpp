@@ -29,7 +29,8 @@ TEST_CASE("a reader that goes away early leaves all files and an error, since it
   CHECK(place.read("a.events.csv").find("\r\nfrf,3,5,peak,") != std::string::npos);
 }
 
-TEST_CASE("two runs at once into one folder: the second one is told, and the first one's files are whole") {
+TEST_CASE(
+    "two runs at once into one folder: the second one is reported, and the first one's files are whole") {
   const Workplace place;
   std::filesystem::create_directory(place.path() + "/out");
   place.write("out/keep", "");

@@ -110,7 +110,7 @@ TEST_CASE("a transient that is not steady at its limit says so, with exit code 3
   CHECK(Json::parse(all.out)["motions"][0]["history"]["time"].size() == 10001);
 }
 
-TEST_CASE("run writes motions beside branches, each study into its files, and both into one") {
+TEST_CASE("run writes motions next to branches, each study into its files, and both into one") {
   const Workplace place;
   Json scene = Json::parse(place.read("scene.json"));
   scene["studies"].push_back({{"name", "loops"},

@@ -57,7 +57,7 @@ void check_linear_system(const std::shared_ptr<const Problem>& inner, const Vect
     const auto sign = solver->determinant_sign();
     REQUIRE(sign);
 
-    // Residuals beside v are those of the same equations.
+    // Residuals next to v are those of the same equations.
     const double h = 1e-5;
     const auto residual = [&](const Vector& where, const Vector& parameters) {
       REQUIRE(at->move_to(where, parameters, Needs::residual) == Evaluated::ok);
@@ -88,7 +88,7 @@ TEST_CASE("block elimination solves the system of branch points, borders include
   check_linear_system(twice_differentiated(), Vector{{0.0, 0.7}}, 1);
 }
 
-TEST_CASE("second derivatives of the problem's own give the branch point without evaluations beside it") {
+TEST_CASE("second derivatives of the problem's own give the branch point without evaluations next to it") {
   int evaluations = 0;
   Functions f;
   f.size = 1;

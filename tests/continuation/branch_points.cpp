@@ -123,7 +123,7 @@ TEST_CASE("Newton's method for branch points converges quadratically") {
   CHECK(errors[3] < 1e-15);
 }
 
-TEST_CASE("an imperfect pitchfork is not a branch point, and its imperfection is told") {
+TEST_CASE("an imperfect pitchfork is not a branch point, and its imperfection is reported") {
   for (int power : {2, 3})
     for (double epsilon : {1e-2, 1e-4, -1e-6, 1e-8}) {
       const auto problem = normal_form(power);

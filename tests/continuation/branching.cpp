@@ -108,7 +108,7 @@ TEST_CASE("an observer that says stop at a branch point stops the branch there")
 
 TEST_CASE("a terminal event shortly before a branch point of the same step is the one that ends the branch") {
   Monitor crossing = branch_point_monitor(),
-          before{"before", [](const Accepted&now) { return now.parameter + 0.001; }};
+          before{"before", [](const Accepted& now) { return now.parameter + 0.001; }};
   crossing.terminal = before.terminal = true;
   Options options = window(-1, 1);
   options.step.initial = options.step.largest_parameter = 0.1;
@@ -133,7 +133,7 @@ TEST_CASE("a branch point beyond the window is no event, and ends no branch") {
   }
 }
 
-TEST_CASE("a problem that throws beside the branch on which it is evaluated ends no trace by an exception") {
+TEST_CASE("a problem that throws next to the branch on which it is evaluated ends no trace by an exception") {
   for (double domain : {1e-5, 1e-6, 1e-8}) {
     const auto problem = from_functions(
         {.size = 1,
@@ -155,19 +155,19 @@ TEST_CASE("a problem that throws beside the branch on which it is evaluated ends
 }
 
 TEST_CASE(
-    "an observer is told of each branch point, also where the bordered matrix is zero to the last bit") {
+    "an observer is reported of each branch point, also where the bordered matrix is zero to the last bit") {
   for (int power : {2, 3, 5})
     for (double from : {1.0, 0.75, 0.5, 0.125}) {
-      int told = 0;
+      int reported = 0;
       const Branch branch =
           trace(imperfect_form(power), {Vector{{0.0}}, Vector{{-from}}, 0, 1}, window(-1, 1),
                 {branch_point_monitor()}, [&](const Accepted& now, const Event* event) {
-                  told += event ? 1 : 0;
+                  reported += event ? 1 : 0;
                   return !event || std::abs(now.parameter) < 1e-12;
                 });
       CAPTURE(power, from, branch.stop.message);
       CHECK(branch.events.size() == 1);
-      CHECK(told == 1);
+      CHECK(reported == 1);
       CHECK(branch.stop.reason == StopReason::boundary);
     }
 }

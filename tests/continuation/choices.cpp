@@ -60,7 +60,7 @@ TEST_CASE("pieces are the same for the same choices alone, also of hundreds of c
   CHECK(std::adjacent_find(pieces.begin(), pieces.end()) == pieces.end());
 }
 
-TEST_CASE("each choice tells which way it went") {
+TEST_CASE("each choice says which way it went") {
   Choices choose;
   choose.anew();
   choose.max(1, 2);

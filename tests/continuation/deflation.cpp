@@ -213,7 +213,7 @@ TEST_CASE("no more solutions are looked for than asked for") {
 
 TEST_CASE(
     "the autocatalator's isola is found at one residence time, and its folds are those of the closed form") {
-  // Gray and Scott, Chem. Eng. Sci. 38 (1983): a = -a b^2 + (1 - a) / tau, b = a b^2 - k b - b / tau. Beside
+  // Gray and Scott, Chem. Eng. Sci. 38 (1983): a = -a b^2 + (1 - a) / tau, b = a b^2 - k b - b / tau. Next to
   // a = 1, b = 0: b = (1 +- sqrt(1 - 4 (1 + k tau)^2 / tau)) / (2 (1 + k tau)), for 4 (1 + k tau)^2 <= tau.
   const double k = 1.0 / 40;
   const auto problem = from_functions(

@@ -80,7 +80,7 @@ TEST_CASE("a singular or non-finite bordered matrix is refused") {
   CHECK_FALSE(lu->factorize(J, borders));
 }
 
-TEST_CASE("a single entry of J that vanishes beside its columns leaves the bordered system accurate") {
+TEST_CASE("a single entry of J that vanishes next to its columns leaves the bordered system accurate") {
   for (double tiny : {1e-8, 1e-20, -1e-61}) {
     Borders borders(1, 2);
     borders.columns << 2e-31, 1;

@@ -223,7 +223,7 @@ TEST_CASE("a chain of five cells branches where its linearization is singular, i
   }
 }
 
-TEST_CASE("where pieces meet, the half-branches beside the one traced are followed: |u| = |lambda|") {
+TEST_CASE("where pieces meet, the half-branches next to the one traced are followed: |u| = |lambda|") {
   const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
   const auto problem =
       from_functions({.size = 1,

@@ -14,7 +14,7 @@
 
 using namespace problems;
 
-TEST_CASE("differences beside a corner are those of the piece, to 1e-8, at any distance from it") {
+TEST_CASE("differences next to a corner are those of the piece, to 1e-8, at any distance from it") {
   // Of e^x - 1 below x = u + p = 0, and 3 sin x above.
   for (const bool number_of_its_own : {false, true}) {  // for x = 0 itself: as above
     Functions f;

@@ -124,7 +124,7 @@ TEST_CASE("the curvature of a fold does not depend on an unknown of a large unit
   }
 }
 
-TEST_CASE("the curvature of a fold beside a kink, or between two, is that of its own piece") {
+TEST_CASE("the curvature of a fold next to a kink, or between two, is that of its own piece") {
   // p = u^2 + s max(0, u - a) + s max(0, b - u), b < 0 < a: p'' = 2 at the fold u = 0.
   const double s = 0.05, far = 1e3;
   for (const bool second_given : {false, true})

@@ -49,7 +49,8 @@ TEST_CASE("an unknown parameter is refused with the names that there are") {
   CHECK_THROWS_WITH(parameter_index(*problem, "c"), "no parameter \"c\"; there are: a, b");
 }
 
-TEST_CASE("a branch by differences comes to the edge of the domain, whether it is told by NaN or thrown") {
+TEST_CASE(
+    "a branch by differences comes to the edge of the domain, whether it is determined by NaN or thrown") {
   for (const bool throws : {false, true})
     for (const int direction : {1, -1}) {
       // u = p^3, where |p| <= 1/2.

@@ -115,7 +115,7 @@ TEST_CASE("the Lorenz equations have their Hopf point at r = s (s + b + 3) / (s 
 }
 
 TEST_CASE("a pair that turns real off the axis, and a real eigenvalue that crosses it, are no Hopf points") {
-  // 1 +- sqrt(-p), with a stable pair beside.
+  // 1 +- sqrt(-p), with a stable pair next to.
   const auto turning = linear(4, [](double p, Eigen::Ref<Matrix> M) {
     M.block(0, 0, 2, 2) << 1, 1, -p, 1;
     pair(M, 2, -2, 3);
@@ -124,7 +124,7 @@ TEST_CASE("a pair that turns real off the axis, and a real eigenvalue that cross
   CHECK(along_zero(turning, -3, 1).events.empty());  // 0 at p = -1
 }
 
-TEST_CASE("a neutral saddle is no Hopf point, whether its eigenvalues lie beside others or not") {
+TEST_CASE("a neutral saddle is no Hopf point, whether its eigenvalues lie next to others or not") {
   const auto saddle = linear(4, [](double p, Eigen::Ref<Matrix> M) {
     M(0, 0) = 1 + p;
     M(1, 1) = -1 + p;
@@ -133,7 +133,7 @@ TEST_CASE("a neutral saddle is no Hopf point, whether its eigenvalues lie beside
   CHECK(along_zero(saddle, -0.5, 0.5).events.empty());
 }
 
-TEST_CASE("pairs that cross within one step are found each, and a real eigenvalue beside them is not") {
+TEST_CASE("pairs that cross within one step are found each, and a real eigenvalue next to them is not") {
   const auto crossing = linear(7, [](double p, Eigen::Ref<Matrix> M) {
     pair(M, 0, p - 0.01, 1);
     pair(M, 2, p - 0.02, 2);

@@ -146,7 +146,7 @@ TEST_CASE("parameters of one name, and a problem without any, are refused") {
   CHECK_THROWS_WITH(from_functions(1, {}, residual), "the problem has no parameters: one has to be free");
 }
 
-TEST_CASE("a start on a fold is told to need a tangent, and one on a branch point to be on one") {
+TEST_CASE("a start on a fold is reported to need a tangent, and one on a branch point to be on one") {
   const auto parabola = from_functions(
       1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = p[0] - u[0] * u[0]; },
       [](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = -2 * u[0]; });

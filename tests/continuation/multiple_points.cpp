@@ -116,7 +116,7 @@ TEST_CASE("the directions of the branches at a double point are those of its amp
     }
 }
 
-TEST_CASE("branch points of two modes in one step are told apart, down to 1e-6") {
+TEST_CASE("branch points of two modes in one step are distinguished, down to 1e-6") {
   for (const double d : {0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6})
     for (const bool mixed : {false, true})
       for (const double from : {-0.93, -1.0}) {
@@ -137,7 +137,7 @@ TEST_CASE("branch points of two modes in one step are told apart, down to 1e-6")
       }
 }
 
-TEST_CASE("two branch points of one mode in one step, of opposite direction, are told") {
+TEST_CASE("two branch points of one mode in one step, of opposite direction, are reported") {
   for (const double d : {0.1, 1e-2, 1e-3, 1e-4}) {
     const auto problem = from_functions(
         1, {parameter("lambda", 0)},
@@ -158,7 +158,7 @@ TEST_CASE("two branch points of one mode in one step, of opposite direction, are
   }
 }
 
-TEST_CASE("a square membrane has double branch points, at which four branches leave beside the flat one") {
+TEST_CASE("a square membrane has double branch points, at which four branches leave next to the flat one") {
   // Delta u + lambda sin u on a square: the modes (j, k) and (k, j) have one eigenvalue.
   const int n = 7;
   const double h2 = 1.0 / (64.0);

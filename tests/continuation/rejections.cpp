@@ -1,4 +1,4 @@
-// Why steps were tried in vain, as a log tells it.
+// Why steps were tried in vain, as a log reports it.
 
 #include "catch.hpp"
 
@@ -28,7 +28,7 @@ Log logged(const std::shared_ptr<const Problem>& problem, const Start& start, Op
 
 }  // namespace
 
-TEST_CASE("each rejected step is told, with its place and its reason") {
+TEST_CASE("each rejected step is reported, with its place and its reason") {
   // F is not defined beyond 0.5.
   const auto line = from_functions(1, {parameter("p", 0)}, [](In u, In p, Out F) {
     F[0] = p[0] > 0.5 ? throw std::runtime_error("no pressure beyond") : u[0] - p[0];

@@ -13,7 +13,7 @@ TEST_CASE("a smooth root is found to rounding in few evaluations") {
   CHECK(root.evaluations <= 9);
 }
 
-TEST_CASE("a root of high multiplicity and one beside a pole stay bracketed") {
+TEST_CASE("a root of high multiplicity and one next to a pole stay bracketed") {
   const auto flat = [](double x) { return std::pow(x - 0.3, 9); };
   const auto root = find_root(flat, 0, flat(0), 1, flat(1), 1e-6);
   CHECK(root.lower <= 0.3);

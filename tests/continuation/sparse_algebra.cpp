@@ -60,7 +60,7 @@ TEST_CASE("sparse complex LU solves as dense LU does, also where the diagonal is
     }
 }
 
-TEST_CASE("sparse complex LU tells a singular matrix, to the pivot that is asked for") {
+TEST_CASE("sparse complex LU reports a singular matrix, to the pivot that is asked for") {
   Sparse A = damped_chain(50, 2);
   A.coeffRef(20, 20) = 0;
   A.coeffRef(20, 19) = A.coeffRef(20, 21) = 0;  // a row of zeros, in the pattern
@@ -73,7 +73,8 @@ TEST_CASE("sparse complex LU tells a singular matrix, to the pivot that is asked
   CHECK_FALSE(lu.factorize(A, least));
 }
 
-TEST_CASE("sparse complex LU tells a singular matrix whatever the order of its rows, in units of all kinds") {
+TEST_CASE(
+    "sparse complex LU reports a singular matrix whatever the order of its rows, in units of all kinds") {
   std::mt19937 random(1);
   for (const int n : {10, 80, 81, 500, 2000})
     for (const int mode : {1, 2, 3, n / 3, n / 2, n - 1})

@@ -150,7 +150,7 @@ TEST_CASE("KLU's factors stay sparse where a tridiagonal J is indefinite or sing
   }
 }
 
-TEST_CASE("KLU's factors stay sparse where F_p is 1e23 at the top of a peak and 1 beside it") {
+TEST_CASE("KLU's factors stay sparse where F_p is 1e23 at the top of a peak and 1 next to it") {
   // -u'' = p e^u near p = 0: J is a Laplacian with p e^u at its top, F_p = -e^u.
   const int n = 4000;
   SparseMatrix J = singular_laplacian(n);

@@ -42,7 +42,7 @@ TEST_CASE("the folds of mu + lambda x - x^3 lie on mu^2 = 4/27 lambda^3, and tur
   CHECK(std::abs(cusps[0].point.parameter) < 1e-10);
 }
 
-TEST_CASE("second derivatives of the problem's own give the curve of folds without evaluations beside it") {
+TEST_CASE("second derivatives of the problem's own give the curve of folds without evaluations next to it") {
   const double x = 0.5;
   for (const bool given : {true, false}) {
     int jacobians = 0;
@@ -74,7 +74,7 @@ TEST_CASE("second derivatives of the problem's own give the curve of folds witho
   }
 }
 
-TEST_CASE("beside a kink, and between two, the curve of folds has the derivatives of its own piece") {
+TEST_CASE("next to a kink, and between two, the curve of folds has the derivatives of its own piece") {
   // p - lambda u^2 - max(0, u - d): a fold at u = 0 of p'' = 2 lambda on its piece, u < d or |u| < d.
   for (const bool both : {false, true})
     for (double d : {1e-4, 5e-6, 1e-7}) {

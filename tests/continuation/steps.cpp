@@ -187,7 +187,7 @@ TEST_CASE("a step with more kinks than are found is made shorter: a resonance be
   CHECK(std::abs(slope(branch.events[0].point.parameter)) < 1e-9);
 }
 
-TEST_CASE("a kink beside the start of a window that is narrow beside p does not close the branch") {
+TEST_CASE("a kink next to the start of a window that is narrow next to p does not close the branch") {
   const auto slope = [](double u) { return u < 2 ? 1.0 : 1.5; };
   const auto problem = from_functions(
       {.size = 1,
@@ -205,7 +205,7 @@ TEST_CASE("a kink beside the start of a window that is narrow beside p does not 
   CHECK(branch.events.size() == 1);
 }
 
-TEST_CASE("a kink too small to turn the branch is passed whatever curve_tolerance asks beside it") {
+TEST_CASE("a kink too small to turn the branch is passed whatever curve_tolerance asks next to it") {
   const auto slope = [](double u) { return u < 0 ? 1.0 : 1.5; };
   const auto problem =
       from_functions({.size = 1,
@@ -243,7 +243,7 @@ TEST_CASE("steps are no longer than step.largest") {
 TEST_CASE("a branch starts along a tangent that is given") {
   const double s = std::sqrt(0.5);
   for (double sign : {1.0, -1.0}) {
-    // At the fold itself, where the parameter tells no direction.
+    // At the fold itself, where the parameter reports no direction.
     const Branch branch =
         trace(circle(), {Vector{{1e-9}}, Vector{{1.0}}, 0, 1, Vector{{sign, 0.0}}}, window(-2, 2));
     REQUIRE(branch.points.size() > 3);

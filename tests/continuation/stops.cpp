@@ -76,7 +76,7 @@ TEST_CASE("wrong_jacobian: a Jacobian that becomes wrong ends the branch and kee
         std::string::npos);
 }
 
-TEST_CASE("step_too_small: a corner that tells no pieces ends the branch") {
+TEST_CASE("step_too_small: a corner that reports no pieces ends the branch") {
   const Branch branch =
       trace(from_functions(
                 1, {parameter("p", 0)}, [](In u, In p, Out F) { F[0] = p[0] + std::abs(u[0]) - 0.5; },

@@ -99,16 +99,16 @@ TEST_CASE("zeros of a test function are followed on the surface of solutions, ro
 
 TEST_CASE("derivatives of test functions are those of the residual, and the linear solver inverts them") {
   const auto problem = test_function_zeros(surface(), a_index, with_further_unknown());
-  const auto at = problem->evaluator(), beside = problem->evaluator();
+  const auto at = problem->evaluator(), nearby = problem->evaluator();
   const Vector x{{0.9, 0.3, 0.7, 0.8}}, p{{0.0, 0.4}};
   REQUIRE(at->move_to(x, p, Needs::jacobian) == Evaluated::ok);
   const double h = 1e-6;
   const auto difference = [&](const Vector& dx, const Vector& dp) {
     Vector result(4);
-    beside->move_to(x + h * dx, p + h * dp, Needs::residual);
-    result = beside->residual();
-    beside->move_to(x - h * dx, p - h * dp, Needs::residual);
-    return Vector((result - beside->residual()) / (2 * h));
+    nearby->move_to(x + h * dx, p + h * dp, Needs::residual);
+    result = nearby->residual();
+    nearby->move_to(x - h * dx, p - h * dp, Needs::residual);
+    return Vector((result - nearby->residual()) / (2 * h));
   };
   Vector found(4);
   for (int i = 0; i < 4; ++i) {

@@ -1,4 +1,4 @@
-// Traces beside each other, built with the thread sanitizer where there is one: it ends the program at the
+// Traces next to each other, built with the thread sanitizer where there is one: it ends the program at the
 // first race.
 
 #include "catch.hpp"
@@ -20,7 +20,7 @@ namespace {
 constexpr int threads = 8;
 
 // What each thread found is what one alone finds, bit for bit.
-void check_beside(const std::function<Branch()>& alone) {
+void check_nearby(const std::function<Branch()>& alone) {
   const Branch one = alone();
   std::vector<Branch> all(threads);
   std::vector<std::thread> running;
@@ -45,7 +45,7 @@ TEST_CASE("eight traces with copies of one vector of Hopf monitors find each wha
   const Line line{.nodes = 8};
   const auto problem = line.problem();
   const auto monitors = hopf_monitors(*problem);
-  check_beside([&] {
+  check_nearby([&] {
     Branch branch =
         trace(problem, {line.homogeneous(2, 4), Vector{{4.0, 2.0}}, 0, 1}, window(4, 7), monitors);
     REQUIRE(branch.events.size() >= 2);
@@ -54,15 +54,15 @@ TEST_CASE("eight traces with copies of one vector of Hopf monitors find each wha
 }
 
 TEST_CASE("eight traces of one problem, dense, sparse and of folds, with all monitors") {
-  check_beside([problem = cusp()] {
+  check_nearby([problem = cusp()] {
     return trace(problem, {Vector::Constant(1, -1.3), Vector{{-1.0, 1.0}}, 0, 1}, window(-1, 1),
                  {fold_monitor(), branch_point_monitor(), kink_monitor(), bound_monitor("end", 0, 1.2)});
   });
-  check_beside([problem = from_functions(rod(20))] {
+  check_nearby([problem = from_functions(rod(20))] {
     return trace(problem, {Vector::Zero(20), Vector{{5.0}}, 0, 1}, window(5, 50),
                  {fold_monitor(), branch_point_monitor()});
   });
-  check_beside([problem = folds(cusp(), 0)] {
+  check_nearby([problem = folds(cusp(), 0)] {
     return trace(problem, {Vector{{-0.6, 0.4}}, Vector{{0.0, 1.0}}, 1, -1}, window(-1, 2), {cusp_monitor()});
   });
 }

@@ -72,7 +72,7 @@ TEST_CASE("a circle that turns where a line crosses it has two branch points and
       }
 }
 
-TEST_CASE("beside a branch point a fold is a fold: (u - d)(lambda - u^2)") {
+TEST_CASE("next to a branch point a fold is a fold: (u - d)(lambda - u^2)") {
   for (double d : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5}) {
     const auto problem = from_functions(
         1, {parameter("lambda", 0)}, [=](In u, In p, Out F) { F[0] = (u[0] - d) * (p[0] - u[0] * u[0]); },

@@ -38,7 +38,7 @@ TEST_CASE("a step whose ends lie within the window leaves it where its cubic doe
 }
 
 TEST_CASE(
-    "no branch is left at the window's bound for one near by, which the sign of the determinant tells") {
+    "no branch is left at the window's bound for one near by, which the sign of the determinant reports") {
   // u (u - d) = 0: lines at u = 0, where J = -d, and at u = d, where J = d.
   const double d = 1e-3;
   const auto problem = from_functions(
@@ -58,5 +58,5 @@ TEST_CASE(
   CHECK(drawn_to(d, 0.7, 1) == d);
   CHECK_FALSE(drawn_to(d, 0.7, -1));
   CHECK_FALSE(drawn_to(0, 0.7, 1));
-  CHECK(drawn_to(d, 0.7, 0) == d);  // where the sign is not known, the distance tells alone
+  CHECK(drawn_to(d, 0.7, 0) == d);  // where the sign is not known, the distance reports alone
 }

@@ -1,5 +1,5 @@
-// Derivatives that are not those of F: told at the start, or where Newton's method shows it, with the entry;
-// and what only looks like it.
+// Derivatives that are not those of F: reported at the start, or where Newton's method shows it, with the
+// entry; and what only looks like it.
 
 #include "catch.hpp"
 
@@ -151,8 +151,8 @@ TEST_CASE("noise in F, as of single precision, accuses no right Jacobian, and hi
     }
 }
 
-TEST_CASE("a kink, with its pieces told or not, accuses no right Jacobian") {
-  for (const bool told : {true, false})
+TEST_CASE("a kink, with its pieces reported or not, accuses no right Jacobian") {
+  for (const bool reported : {true, false})
     for (int k = -40; k <= 40; ++k) {
       const double at = k == 0 ? 0 : std::copysign(std::pow(10.0, -12 + 0.3 * std::abs(k)), k);
       Functions f;
@@ -161,22 +161,22 @@ TEST_CASE("a kink, with its pieces told or not, accuses no right Jacobian") {
       f.residual = [](In u, In p, Out F) { F[0] = (u[0] < 0 ? 1 : 3) * u[0] - p[0]; };
       f.jacobian = [](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = u[0] < 0 ? 1 : 3; };
       f.derivative = [](In, In, int, Out dF) { dF[0] = -1; };
-      if (told) f.piece = [](In u, In) { return u[0] < 0 ? 1 : 2; };
-      CAPTURE(told, at);
+      if (reported) f.piece = [](In u, In) { return u[0] < 0 ? 1 : 2; };
+      CAPTURE(reported, at);
       CHECK(doubt_jacobian(*from_functions(f), Vector{{at}}, Vector{{0.0}}, 0).message.empty());
     }
 }
 
 TEST_CASE("unknowns and equations of extreme sizes accuse no right Jacobian, and hide no wrong one") {
-  // F_i = e_i [c (x_i / s)^3 + x_i / s + (x_j / s) - p], x_i of size s, with a scale that is told or left
+  // F_i = e_i [c (x_i / s)^3 + x_i / s + (x_j / s) - p], x_i of size s, with a scale that is reported or left
   // at 1.
   for (const double s : {1e-12, 1e-6, 1.0, 1e6, 1e12})
-    for (const bool told : {true, false})
+    for (const bool reported : {true, false})
       for (const double factor : {1.0, 1.05}) {
         Functions f;
         f.size = 2;
         f.parameters = {parameter("p", 1)};
-        if (told) f.scales = Vector::Constant(2, s);
+        if (reported) f.scales = Vector::Constant(2, s);
         f.residual = [=](In u, In p, Out F) {
           const double x = u[0] / s, y = u[1] / s;
           F << 1e9 * (x * x * x + y - p[0]), 1e-9 * (y - x - p[0]);
@@ -188,7 +188,7 @@ TEST_CASE("unknowns and equations of extreme sizes accuse no right Jacobian, and
         f.derivative = [](In, In, int, Out dF) { dF << -1e9, -1e-9; };
         const JacobianError found =
             doubt_jacobian(*from_functions(f), Vector{{0.9 * s, 1.7 * s}}, Vector{{1.0}}, 0);
-        CAPTURE(s, told, factor, found.message);
+        CAPTURE(s, reported, factor, found.message);
         CHECK(found.message.empty() == (factor == 1));
         if (factor != 1) CHECK((found.row == 0 && found.column == 0));
       }

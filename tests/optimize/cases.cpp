@@ -260,7 +260,7 @@ TEST_CASE("bounds within which a case is unbounded everywhere leave nothing to b
   CHECK(found.cases.empty());
 }
 
-TEST_CASE("cases that make no sense are told") {
+TEST_CASE("cases that make no sense are reported") {
   const scene::Scene s = closed_form();
   const auto error_of = [&](const optimize::LoadCase& one) {
     try {

@@ -1,4 +1,4 @@
-// How far the harmonics left out move an optimum, beside searches with more harmonics.
+// How far the harmonics left out move an optimum, next to searches with more harmonics.
 
 #include "catch.hpp"
 

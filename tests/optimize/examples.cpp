@@ -30,7 +30,7 @@ const OptimumSettings& settings(const scene::Scene& s, std::size_t study) {
   return s.studies.at(study).settings.as<OptimumSettings>();
 }
 
-// At the scene's own values, and at half and twice these: every watched peak against responses beside it.
+// At the scene's own values, and at half and twice these: every watched peak against responses next to it.
 int check_gradients(const scene::Scene& s, const OptimumProblem& problem) {
   const auto model = std::make_shared<const model::Model>(model::build(s));
   const double unit = scene::to_rad_per_s(s.frequency_unit);
@@ -136,7 +136,7 @@ TEST_CASE("the sum of the loads is as large as its limit allows, and no other pa
   REQUIRE(limited.design.size() == 2);
   CHECK(limited.feasible);
   CHECK(limited.design[0] + limited.design[1] == Approx(2).epsilon(1e-7));
-  // in responses of their own: at the optimum, along the limit beside it, and with less load
+  // in responses of their own: at the optimum, along the limit next to it, and with less load
   CHECK(highest(s, problem, limited.design) == Approx(limited.amplitude).epsilon(1e-9));
   for (const double step : {-0.05, -0.01, 0.01, 0.05})
     CHECK(highest(s, problem, {limited.design[0] + step, limited.design[1] - step}) > limited.amplitude);
@@ -166,9 +166,9 @@ TEST_CASE(
     CHECK(any(found.design) == Approx(found.amplitude).epsilon(1e-9));
     for (std::size_t k = 0; k < 2; ++k)
       for (const double factor : {0.97, 1.03}) {
-        std::vector<double> beside = found.design;
-        beside[k] *= factor;
-        CHECK(any(beside) > found.amplitude);
+        std::vector<double> nearby = found.design;
+        nearby[k] *= factor;
+        CHECK(any(nearby) > found.amplitude);
       }
     const auto first = optimize::optimum_study(s, settings(s, 0)).optimum;
     if (tuned) {  // by symmetry all blades move alike, a third of a period apart
@@ -214,7 +214,8 @@ TEST_CASE("one load for four levels: the worst and the mean are least, in respon
 }
 
 TEST_CASE(
-    "with a contact that is uncertain, no contact between the bounds is worse than the worst that is told") {
+    "with a contact that is uncertain, no contact between the bounds is worse than the worst that is "
+    "reported") {
   const scene::Scene s = example("levels/scene.json");
   const OptimumProblem& problem = settings(s, 4).problem;
   REQUIRE(problem.scatter.size() == 2);
@@ -248,7 +249,7 @@ TEST_CASE("the examples' gradients are differences of responses") {
   CHECK(check_gradients(one, settings(one, 0).problem) == 3);
 }
 
-TEST_CASE("the optimal load grows with the force in proportion, and less beside a cubic spring") {
+TEST_CASE("the optimal load grows with the force in proportion, and less next to a cubic spring") {
   scene::Scene s = example("levels/scene.json");
   const scene::Study study = s.studies[0];
   const auto load_over_force = [&](double cubic) {
@@ -278,7 +279,7 @@ TEST_CASE("the optimal load grows with the force in proportion, and less beside 
   CHECK(cubic.back() < 0.91 * cubic.front());
 }
 
-TEST_CASE("with one harmonic the optimal loads beside a cubic spring are those of describing functions") {
+TEST_CASE("with one harmonic the optimal loads next to a cubic spring are those of describing functions") {
   scene::Scene s = example("levels/scene.json");
   s.harmonics.order = 1;
   const double m = 1.24, k = 17890, c = 3, cubic = 1e9, kd = 3500, mu = 0.5;
@@ -345,7 +346,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("beside a minimum, a lower design on the way to the end of its tolerance range is taken up") {
+TEST_CASE("next to a minimum, a lower design on the way to the end of its tolerance range is taken up") {
   scene::Scene s = example("levels/scene.json");
   scene::set(s, "k.value", 9000);  // the resonance reaches the lower end of the window
   const OptimumProblem over_damper{{{"damper.normal_load", 0.5, 60}}, 15, 60};

@@ -35,7 +35,7 @@ std::map<std::string, long> asked(const scene::Scene& s, const optimize::Optimum
 
 }  // namespace
 
-TEST_CASE("every phase of a search asks at every step of a response, and a stop in any of them is told") {
+TEST_CASE("every phase of a search asks at every step of a response, and a stop in any of them is reported") {
   const scene::Scene s = scenes::paper(7, 3);
   const auto times = asked(s, one_load);
   std::set<std::string> phases;
@@ -64,7 +64,7 @@ TEST_CASE("every phase of a search asks at every step of a response, and a stop 
 }
 
 TEST_CASE(
-    "the progress of a search tells its phases in turn, all evaluations and the least amplitude so far") {
+    "the progress of a search reports its phases in turn, all evaluations and the least amplitude so far") {
   scene::Scene s = scenes::example("two_dampers");
   s.harmonics.order = 7;
   const auto& limited = s.studies[1].settings.as<optimize::OptimumSettings>();
@@ -105,7 +105,7 @@ TEST_CASE("a search over cases asks in its curves, and is not complete without t
   CHECK(contains(result.stop.message, "interrupted in the curves of the cases; of the search: "));
 }
 
-TEST_CASE("a search that is interrupted far from its best design tells the best, as it was seen there") {
+TEST_CASE("a search that is interrupted far from its best design reports the best, as it was seen there") {
   const scene::Scene s = scenes::paper(7, 3);
   const optimize::OptimumProblem problem{{{"damper.normal_load", 0.1, 100}}, 18, 22};
   bool certifying = false;

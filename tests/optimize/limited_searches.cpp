@@ -1,4 +1,4 @@
-// Random searches with limits beside other algorithms and designs over all the bounds.
+// Random searches with limits next to other algorithms and designs over all the bounds.
 
 #include "catch.hpp"
 
@@ -56,7 +56,7 @@ TEST_CASE("random searches with limits: none is complete where another way comes
   CHECK(2 * complete >= searched);
 }
 
-TEST_CASE("where the best design is beside others with one more peak, beyond a limit, the end says so") {
+TEST_CASE("where the best design is next to others with one more peak, beyond a limit, the end says so") {
   const auto search = random_limits::make(16);
   const auto found = optimize::optimum(search.scene, search.problem, {.certificate = false, .starts = 1});
   CAPTURE(found.stop.message);
@@ -67,7 +67,7 @@ TEST_CASE("where the best design is beside others with one more peak, beyond a l
   CHECK(found.stop.message.find(beyond) != std::string::npos);
 }
 
-TEST_CASE("where a limit has another gradient beside the best design, the end says so") {
+TEST_CASE("where a limit has another gradient next to the best design, the end says so") {
   auto search = random_limits::make(340);
   const auto found = search_from(search, {});
   CAPTURE(found.design, found.stop.message);
@@ -82,7 +82,7 @@ TEST_CASE("a search that loses a peak next to its best design goes on from a des
   const auto found = search_from(search, {3.939, 8.5564});
   CAPTURE(found.design, found.stop.message);
   CHECK(found.stop.reason ==
-        optimize::reasons::not_stationary);  // beside the peak, where a limit is exceeded
+        optimize::reasons::not_stationary);  // next to the peak, where a limit is exceeded
   REQUIRE(found.feasible);
   CHECK(random_limits::excess(search, found.design) <= 1e-6);
   CHECK(found.amplitude <= 0.00033819059 * (1 + 1e-6));  // 0.0003596 where both dampers stick

@@ -1,4 +1,4 @@
-// Limits: what a search tells to be least is least among the designs that keep them.
+// Limits: what a search reports to be least is least among the designs that keep them.
 
 #include "catch.hpp"
 
@@ -177,7 +177,7 @@ TEST_CASE("a damper that sticks is let slip no farther than a limit on the energ
   }
 }
 
-TEST_CASE("with limits the best design may be beside the upper bounds, where nothing slips") {
+TEST_CASE("with limits the best design may be next to the upper bounds, where nothing slips") {
   const auto search = random_limits::make(433);
   const auto found = optimize::optimum(search.scene, search.problem, {.certificate = false});
   CAPTURE(found.stop.message);

@@ -126,7 +126,7 @@ TEST_CASE("the gradient is asked for by gradient-based algorithms only") {
   }
 }
 
-TEST_CASE("progress is told after every evaluation") {
+TEST_CASE("progress is reported after every evaluation") {
   std::vector<long> counts;
   double best = 0;
   MinimizeOptions options;

@@ -128,7 +128,7 @@ TEST_CASE("a tolerance range that a bound cuts says so") {
   CHECK(range.upper_is_bound);
 }
 
-TEST_CASE("an optimum at a bound is told, with the gradient that is left") {
+TEST_CASE("an optimum at a bound is reported, with the gradient that is left") {
   const Optimum found = optimize::optimum(paper(7, 6), {{{"damper.normal_load", 4, 10}}, 18, 22});
   CHECK(found.status == observables::Status::complete);
   CHECK(found.design[0] == 4);
@@ -205,7 +205,7 @@ TEST_CASE("a limit on the energy of friction is kept, and is active where it mus
   CHECK((!none.feasible || none.point.energy_friction <= 1e-3 * (1 + 1e-6)));
 }
 
-TEST_CASE("limits that no design keeps are no complete answer, and the one nearest to them is told") {
+TEST_CASE("limits that no design keeps are no complete answer, and the one nearest to them is reported") {
   OptimumProblem limited = over_load;
   limited.linear_limits = {{.weights = {{"damper.normal_load", 1}}, .at_most = 0.05}};
   const Optimum found = optimize::optimum(paper(3, 3), limited);

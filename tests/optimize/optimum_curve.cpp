@@ -50,7 +50,7 @@ TEST_CASE("without another nonlinearity the best load grows in proportion, and t
     }
 }
 
-TEST_CASE("beside a cubic spring the curve goes through the optima that are searched level by level") {
+TEST_CASE("next to a cubic spring the curve goes through the optima that are searched level by level") {
   const OptimumProblem problem{{{"damper.normal_load", 0.5, 60}}, 15, 60};
   for (const double level : {2.0, 4.0, 8.0}) {
     CAPTURE(level);
@@ -154,7 +154,7 @@ TEST_CASE("the optimum is followed onto a corner, where a damper begins to slip,
 }
 
 TEST_CASE("where a resonance and a corner meet in a fold the curve goes on, and not back over itself") {
-  // A damper begins to slip: the resonance turns round within 1e-6 of the stiffness, the corner beside it
+  // A damper begins to slip: the resonance turns round within 1e-6 of the stiffness, the corner next to it
   // goes on. Farther on another resonance comes up.
   const OptimumProblem problem{{{"d2.normal_load", 0.05, 50}}, 8, 45};
   const OptimumCurve curve = optimum_curve(two_dampers(2), problem, {"d2.stiffness", 200, 8000});
@@ -164,17 +164,17 @@ TEST_CASE("where a resonance and a corner meet in a fold the curve goes on, and 
   CHECK(kinds == std::vector<std::string>{"peak_changes", "peak_changes", "peak_joins", "peak_leaves"});
   CHECK(std::is_sorted(curve.points.begin(), curve.points.end(),
                        [](const auto& a, const auto& b) { return a.along < b.along; }));
-  int beside[3] = {0, 0, 0};
+  int nearby[3] = {0, 0, 0};
   for (const OptimumPoint& at : curve.points) {
     CHECK(at.minimum);
     const int piece = at.along < 4346 ? 0 : at.along < 4392 ? 1 : 2;
-    if (beside[piece]++ % 10 != 5) continue;
+    if (nearby[piece]++ % 10 != 5) continue;
     CAPTURE(at.along, at.design[0], at.amplitude);
     const Optimum found = search(two_dampers(2), problem, "d2.stiffness", at);
     CHECK(reference::error(at.amplitude, found.amplitude) < 1e-9);
     CHECK(reference::error(at.design[0], found.design[0]) < 1e-4);
   }
-  for (const int count : beside) CHECK(count > 5);
+  for (const int count : nearby) CHECK(count > 5);
 }
 
 TEST_CASE("bounds and peaks: as many as there are conditions, one has to leave for another", "[numbers]") {

@@ -72,13 +72,13 @@ TEST_CASE("a bound that is left where everything comes to stick is no end withou
 }
 
 TEST_CASE("a progress callback, a number of points and a time limit stop the curve") {
-  int told = 0;
+  int reported = 0;
   OptimumCurveOptions options;
-  options.progress = [&](const OptimumPoint&) { return ++told < 5; };
+  options.progress = [&](const OptimumPoint&) { return ++reported < 5; };
   const OptimumCurve by_user = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10}, options);
   CHECK(by_user.status == observables::Status::stopped);
   CHECK(by_user.stop.reason == reasons::user);
-  CHECK(told == 5);
+  CHECK(reported == 5);
   OptimumCurveOptions few;
   few.points = 7;
   const OptimumCurve by_points = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10}, few);
@@ -93,9 +93,9 @@ TEST_CASE("a progress callback, a number of points and a time limit stop the cur
 
 TEST_CASE("what the progress callback throws ends the curve with what there is") {
   OptimumCurveOptions options;
-  int told = 0;
+  int reported = 0;
   options.progress = [&](const OptimumPoint&) {
-    if (++told == 4) throw std::runtime_error("enough");
+    if (++reported == 4) throw std::runtime_error("enough");
     return true;
   };
   const OptimumCurve curve = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10}, options);
@@ -127,7 +127,7 @@ TEST_CASE("what cannot be continued is refused before anything is computed") {
   CHECK(contains(curve_error(paper(1, 0), cases, force), "over several cases cannot be continued"));
 }
 
-TEST_CASE("a peak without weight beside one that does not depend on the design holds no optimum") {
+TEST_CASE("a peak without weight next to one that does not depend on the design holds no optimum") {
   // The lower resonance comes to where d1 sticks: from there on it alone decides, over a range of loads.
   const OptimumProblem problem{{{"d1.normal_load", 0.05, 50}}, 8, 45};
   const OptimumCurve curve = optimum_curve(two_dampers(2), problem, {"d2.stiffness", 200, 8000});

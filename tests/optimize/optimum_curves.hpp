@@ -1,5 +1,5 @@
 #pragma once
-// Scenes and searches beside which curves of optima are held.
+// Scenes and searches next to which curves of optima are held.
 
 #include "catch.hpp"
 

@@ -54,9 +54,9 @@ double hessian_error(PeakAmplitude& peaks, const Design& design, double step = 1
   for (std::size_t j = 0; j < design.size(); ++j) {
     continuation::Vector gradient[2];
     for (const int side : {0, 1}) {
-      Design beside = design;
-      beside[j] *= side == 0 ? 1 - step : 1 + step;
-      const auto& state = peaks.at(beside);
+      Design nearby = design;
+      nearby[j] *= side == 0 ? 1 - step : 1 + step;
+      const auto& state = peaks.at(nearby);
       if (state.peaks[state.highest].kind != kind) return HUGE_VAL;
       gradient[side] = state.peaks[state.highest].gradient;
     }

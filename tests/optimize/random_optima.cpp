@@ -1,5 +1,5 @@
-// Optima of random structures with friction beside responses of their own: the amplitude, the ends of
-// tolerance ranges, and what is told of windows and bounds that miss the resonances.
+// Optima of random structures with friction next to responses of their own: the amplitude, the ends of
+// tolerance ranges, and what is reported of windows and bounds that miss the resonances.
 
 #include "catch.hpp"
 #include "random.hpp"

@@ -166,7 +166,7 @@ TEST_CASE("an exception at the start leaves no value, and says so") {
         "succeeded");
 }
 
-TEST_CASE("an exception in a constraint or in the progress callback is told apart") {
+TEST_CASE("an exception in a constraint or in the progress callback is distinguished") {
   NonlinearProgram problem = hock_schittkowski_71();
   problem.constraints[1].function = [](auto, auto) -> double { throw std::runtime_error("wear"); };
   CHECK(contains(minimize(problem, {1, 5, 5, 1}).message, "constraint \"square\" threw \"wear\""));
@@ -222,7 +222,7 @@ TEST_CASE("rounding errors end a run that asks for more than there is") {
   CHECK(r.value == Approx(std::numbers::pi));
 }
 
-TEST_CASE("what NLopt itself refuses is told with its own message") {
+TEST_CASE("what NLopt itself refuses is reported with its own message") {
   const MinimizeResult r = minimize(friction_damper(0.8, 50), {3}, {.algorithm = "LN_NEWUOA"});
   CHECK(std::string(name(r.reason)) == "invalid_arguments");
   CHECK(contains(r.message, "NLopt refused to run LN_NEWUOA: "));

@@ -155,7 +155,7 @@ TEST_CASE("the worst within a box, not at its ends, is found, as a grid of frequ
     if (each.active) worst = each.scatter[0].second;
   CHECK(worst > 705);
   CHECK(worst < 1395);
-  // No point of the grid is higher, and one is nearly as high: A falls by (dk/k)^2 beside the worst.
+  // No point of the grid is higher, and one is nearly as high: A falls by (dk/k)^2 next to the worst.
   const double grid = highest_in_box(found.design[0]);
   CHECK(grid <= found.amplitude * (1 + 1e-8));
   CHECK(grid >= found.amplitude * (1 - 1e-3));

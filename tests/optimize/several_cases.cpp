@@ -35,9 +35,9 @@ void check_least(const Optimum& found, Criterion criterion) {
   CHECK(criterion(found.design) == Approx(found.amplitude).epsilon(1e-9));
   for (int k = 0; k < 8; ++k) {
     const double angle = k * std::numbers::pi / 4;
-    const std::vector<double> beside = {found.design[0] * (1 + 1e-2 * std::cos(angle)),
+    const std::vector<double> nearby = {found.design[0] * (1 + 1e-2 * std::cos(angle)),
                                         found.design[1] * (1 + 1e-2 * std::sin(angle))};
-    CHECK(criterion(beside) > found.amplitude);
+    CHECK(criterion(nearby) > found.amplitude);
   }
 }
 
@@ -262,7 +262,7 @@ TEST_CASE("the gradient of both criteria is the difference of new responses") {
 }
 
 TEST_CASE("the least combination of gradients meets the conditions of a minimum, of full rank or not") {
-  // Columns a, b and -(a + b)/2 balance; a fourth beside them is not wanted.
+  // Columns a, b and -(a + b)/2 balance; a fourth next to them is not wanted.
   Eigen::MatrixXd G(2, 4);
   G << 1, 0, -0.5, 1,  //
       0, 1, -0.5, 1;

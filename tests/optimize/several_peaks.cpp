@@ -34,9 +34,9 @@ TEST_CASE("two dampers on two masses: two peaks are equally high, and their grad
   CHECK(highest_peak(s, found.design, 8, 45) == Approx(found.amplitude).epsilon(1e-9));
   for (int k = 0; k < 8; ++k) {
     const double angle = k * std::numbers::pi / 4;
-    const std::vector<double> beside = {found.design[0] * (1 + 1e-2 * std::cos(angle)),
+    const std::vector<double> nearby = {found.design[0] * (1 + 1e-2 * std::cos(angle)),
                                         found.design[1] * (1 + 1e-2 * std::sin(angle))};
-    CHECK(highest_peak(s, beside, 8, 45) > found.amplitude);
+    CHECK(highest_peak(s, nearby, 8, 45) > found.amplitude);
   }
 }
 

@@ -225,7 +225,7 @@ TEST_CASE("settings compare by value, and are those of their own kind alone") {
   CHECK(scene::Settings() == scene::Settings());
 }
 
-TEST_CASE("what a study is over, or gives values to, is told, and only lists can be dropped") {
+TEST_CASE("what a study is over, or gives values to, is reported, and only lists can be dropped") {
   const scene::Scene scene = scene_with_all_kinds();
   const auto names = [&](std::size_t i) {
     std::set<std::string> all;

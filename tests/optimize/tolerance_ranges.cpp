@@ -1,4 +1,4 @@
-// Ends of tolerance ranges of linear absorbers, two peaks of which are equally high at the optimum, beside
+// Ends of tolerance ranges of linear absorbers, two peaks of which are equally high at the optimum, next to
 // the closed form of the response.
 
 #include "catch.hpp"

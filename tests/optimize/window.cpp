@@ -39,7 +39,7 @@ double amplitude(double c, double hz) {
 
 }  // namespace
 
-TEST_CASE("a window that misses the resonance is no complete answer, and the window to take is told") {
+TEST_CASE("a window that misses the resonance is no complete answer, and the window to take is reported") {
   for (const bool upper : {true, false}) {
     CAPTURE(upper);
     const Optimum found = upper ? over_damper(1, 5, 5, 8) : over_damper(1, 5, 12, 15);
@@ -106,7 +106,7 @@ TEST_CASE(
 // x is a Duffing oscillator of which 1.6 rad/s lies in the hysteresis: 0.337518 and 1.591910 m by integration
 // in time, and the upper branch has its peak of about 2.3178 m at 2.2119 rad/s. y has its resonance at 3
 // rad/s.
-TEST_CASE("a window that begins within a hysteresis: a higher branch than the one of the peaks is told") {
+TEST_CASE("a window that begins within a hysteresis: a higher branch than the one of the peaks is reported") {
   const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x", "y"],
       "masses": [{"name": "mx", "at": "x", "value": 1}, {"name": "my", "at": "y", "value": 1}],

@@ -236,7 +236,7 @@ Random cases, the same on every machine but for the moments of signals. The test
   row("mutants of MATLAB files of version 5 and 7.3, plain and compressed, each read for two variables",
       mat_mutants, 4, "mutated MATLAB files",
       "28 000: all read or refused. Of the compressed ones of version 7.3, 9 of 14 000 times HDF5 ended the "
-      "program that reads them by a signal, which is told as damage. 20 000 under the address and "
+      "program that reads them by a signal, which is reported as damage. 20 000 under the address and "
       "undefined-behaviour sanitizers, with that program under them as well, without its limits: "
       "nothing was "
       "found");
@@ -245,13 +245,14 @@ Random cases, the same on every machine but for the moments of signals. The test
       "14 100: 930 of each command below \"Interruptions\", and of the first four 890 to 1000 more. All "
       "files whole, none silent, none left over");
   row("kills of `run`, `reduce` and `optimize` that write over older results", app_test::kills, 3,
-      "killed at any moment", "201: each mix of old and new files told by the manifest");
-  row("random searches with limits over 1 to 4 parameters, on sums, energy, frequency and stick, beside "
+      "killed at any moment", "201: each mix of old and new files reported by the manifest");
+  row("random searches with limits over 1 to 4 parameters, on sums, energy, frequency and stick, next to "
       "searches by LN_COBYLA and LD_MMA from the lowest of forty other designs over the bounds",
       limited_searches::number, 1, "random searches with limits",
       "1014. 780 of the seeds up to 999, those with the quicker responses: 446 with searches elsewhere as "
       "they are "
-      "now, the last 138 of them after the last change; 70 before beside the same other ways, 264 beside "
+      "now, the last 138 of them after the last change; 70 before compared with the same other ways, 264 "
+      "next to "
       "LN_COBYLA alone. 613 complete, none above the other ways by more than 7e-8 and 82 below them by more "
       "than 1e-6, all limits kept in responses of their own; 150 for which no way has a design within the "
       "limits; 16 stopped where no conditions of a minimum hold, at a jump, or a kink of the amplitude or of "
@@ -264,51 +265,57 @@ Random cases, the same on every machine but for the moments of signals. The test
       "ways; seven more cut after some minutes");
   row("linear absorbers over one parameter or two: each end of a tolerance range, and twenty places on the "
       "way "
-      "there, beside the closed form of the response",
+      "there, compared with the closed form of the response",
       tolerance_ranges::absorbers, 1, "tolerance ranges of random absorbers",
       "500: all ends where the peak is 1 or 5 % up, to 1e-9");
-  row("random structures with friction: optima over one load or two, beside responses of their own, each end "
+  row("random structures with friction: optima over one load or two, compared with responses of their own, "
+      "each end "
       "of "
       "their tolerance ranges and three places on the way there",
       random_optima::with_ranges, 1, "random optima have the amplitude",
       "500: 327 complete, with 1804 ends of ranges, all within 1e-6. Before, of 90 one range went through a "
       "part in "
       "which the amplitude was 5.3 % up");
-  row("optima of random structures in windows and bounds that may miss the resonances, beside a response "
+  row("optima of random structures in windows and bounds that may miss the resonances, compared with a "
+      "response "
       "over "
       "a wide window",
       random_optima::with_other_windows, 1, "random optima in windows",
       "300: 200 have their highest value at an end of the window and a higher peak beyond, and say so; 98 "
       "are "
-      "complete, none of them beside one, and 2 are stopped where no condition of a minimum holds. Before, "
+      "complete, none of them compared with one, and 2 are stopped where no condition of a minimum holds. "
+      "Before, "
       "22 in "
       "which no load had an influence were complete");
   row("conservative oscillators with a cubic spring and a stop, over four decades of amplitude: the "
       "frequency "
-      "of their modes beside the energy integral",
+      "of their modes compared with the energy integral",
       mode_accuracy::conservative, 1, "conservative modes over four decades",
-      "100, with 31 650 motions: all within the 1e-4 that was asked for, and within twice the error told");
+      "100, with 31 650 motions: all within the 1e-4 that was asked for, and within twice the error "
+      "reported");
   row("damped oscillators with a slider and some with a cubic spring, over four decades of amplitude: "
       "frequency "
-      "and damping ratio of their modes beside shooting with Runge-Kutta steps",
+      "and damping ratio of their modes compared with shooting with Runge-Kutta steps",
       mode_accuracy::damped, 1, "damped modes over four decades", "300, with 2376 motions: likewise");
   row("the same with a second mass", mode_accuracy::two_masses, 1, "damped modes of two masses",
       "100, of which 60 have no fold of an internal resonance, with 1904 motions: likewise");
-  row("frequencies from 1e-8 to 1e-2 beside a fold of a Duffing oscillator: how many responses are found, "
-      "beside "
+  row("frequencies from 1e-8 to 1e-2 next to a fold of a Duffing oscillator: how many responses are found, "
+      "next to "
       "the cubic equation of one harmonic",
-      responses_at::beside_folds, 1, "beside a fold as many responses", "5000: as many at each");
+      responses_at::near_folds, 1, "next to a fold as many responses", "5000: as many at each");
   row("windows that begin or end within the hysteresis of a Duffing oscillator: how many responses their "
       "ends "
-      "have, beside the cubic equation of one harmonic",
+      "have, compared with the cubic equation of one harmonic",
       responses_at::within_hystereses, 1, "a frequency response has all responses at the ends",
       "1000: as many at each");
   row("structures of one to three masses with an element of each of 15 laws, orders 3 to 11: truncation "
-      "estimates at points and peaks, beside the error that three times the order tells, and of piecewise "
+      "estimates at points and peaks, compared with the error that three times the order reports, and of "
+      "piecewise "
       "linear "
-      "laws at points beside the exact motion in time",
+      "laws at points compared with the exact motion in time",
       truncation::each_law, truncation::law_count, "truncation estimates of each law",
-      "225, with 3203 estimates that are not flagged, 292 of them beside the motion in time: 3 are below "
+      "225, with 3203 estimates that are not flagged, 292 of them compared with the motion in time: 3 are "
+      "below "
       "half of the "
       "error. Two of these are peaks of a contact in a plane, within 2e-6 of the amplitude, where a kink "
       "was passed at which it begins to slip. Of 100 Bouc-Wen elements one of 2200; before, 14 of 1301 "
@@ -322,7 +329,8 @@ Random cases, the same on every machine but for the moments of signals. The test
       "invariances (`ARCSLIP_INVARIANCES=200 tests/run -R \"under all invariances\"`): the same events to "
       "1e-10, and the same bits in units of two, in all 4589 checks");
   row("an oscillator with a slider, two masses with a stop, and a contact with separation, all parameters "
-      "between 1e-30 and 1e30 times what is usual, 0 and negative, each eighth point beside equations in "
+      "between 1e-30 and 1e30 times what is usual, 0 and negative, each eighth point compared with equations "
+      "in "
       "extended precision",
       parameter_ranges::random_scenes, 1, "all parameters at random",
       "100 400 scenes. Of the last 78 000, each eighth point: 1 614 405 points of 78 167 branches, of "
@@ -353,8 +361,8 @@ void print_bad_scenes() {
   std::cout << R"(
 ## Faults of a scene file
 
-Each is one fault in a sound scene; the command ends with exit code 2. All faults of a file are told in one go, each
-with the JSON pointer of its place. Without a pointer the file is no JSON, and the message tells line and column where
+Each is one fault in a sound scene; the command ends with exit code 2. All faults of a file are reported in one go, each
+with the JSON pointer of its place. Without a pointer the file is no JSON, and the message reports line and column where
 it can.
 
 )";

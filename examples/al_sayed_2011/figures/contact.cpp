@@ -31,15 +31,15 @@ std::string order_label(const scene::Scene& scene) {
 /// angle, time, displacement, force.
 using Rows = std::vector<std::vector<double>>;
 
-Rows balanced(const scene::Scene& scene, double frequency, const time::TimeHistory& beside) {
+Rows balanced(const scene::Scene& scene, double frequency, const time::TimeHistory& nearby) {
   std::vector<double> angles;
   const double omega = frequency * scene::to_rad_per_s(scene.frequency_unit);
-  for (const double t : beside.time) angles.push_back(omega * t);
+  for (const double t : nearby.time) angles.push_back(omega * t);
   const auto branch = response_at(scene, frequency);
   const auto history = observables::history(scene, branch, branch.points.front(), angles);
   Rows rows;
   for (std::size_t k = 0; k < angles.size(); ++k)
-    rows.push_back({angles[k], beside.time[k], history.displacement[k], history.elements.front().series[k]});
+    rows.push_back({angles[k], nearby.time[k], history.displacement[k], history.elements.front().series[k]});
   return rows;
 }
 
@@ -54,7 +54,7 @@ void add_histories(const SceneFile& file, std::vector<DataFile>& figures) {
     in_time.push_back({motion.omega * motion.history.time[k], motion.history.time[k],
                        motion.history.displacement[k], motion.history.elements.front().force[k]});
   DataFile forces{"figure_03", "Friction force over a period", file.name, {}, {}};
-  forces.columns = {"angle (rad)", "time (s)", "force (N)", "beside the force in time (N)"};
+  forces.columns = {"angle (rad)", "time (s)", "force (N)", "next to the force in time (N)"};
   DataFile loops{"figure_04", "Friction force over the displacement", file.name, {}, {}};
   loops.columns = {"displacement (m)", "force (N)"};
   const auto& element = motion.history.elements.front();

@@ -25,7 +25,7 @@ using continuation::Vector;
 using elements::Harmonics;
 
 constexpr double same_place = 1e-6;      // distance of two branch points, relative to 1 + |u|, in scales
-constexpr double beside_end = 1e-3;      // the same
+constexpr double near_end = 1e-3;        // the same
 constexpr double same_direction = 0.95;  // cosine
 
 Vector with_frequency(const ResponsePoint& point) {
@@ -41,7 +41,7 @@ Vector with_frequency(continuation::In u, double omega) {
   return v;
 }
 
-const char* told(const std::string& kind) {
+const char* reported(const std::string& kind) {
   if (kind == event_kinds::symmetry_breaking) return "break of symmetry";
   if (kind == event_kinds::period_doubling) return "period doubling";
   return "branch point";
@@ -49,7 +49,7 @@ const char* told(const std::string& kind) {
 
 class AllBranches {
  public:
-  explicit AllBranches(const Following& following) : f_(following) {}
+  explicit AllBranches(const BranchOptions& following) : f_(following) {}
 
   std::vector<TracedBranch> run(std::vector<TracedBranch> given) {
     for (TracedBranch& each : given) {
@@ -71,7 +71,7 @@ class AllBranches {
       deflate(omega);
     }
     if (f_.limits.searches > 0 && is_full())
-      known_.front().response.untraced.push_back("branches that no other reaches: " + limit_told());
+      known_.front().response.untraced.push_back("branches that no other reaches: " + limit_reported());
     for (; next_ < ways_.size(); ++next_)
       if (const Way& way = ways_[next_]; !way.followed)
         untraced(way.from, way.kind, way.half_branch.x[way.half_branch.x.size() - 1],
@@ -109,13 +109,14 @@ class AllBranches {
   std::string frequency(double omega) const { return frequency_text(omega, f_.unit); }
 
   void untraced(std::size_t branch, const std::string& kind, double omega, const std::string& why) {
-    known_[branch].response.untraced.push_back("the branch that leaves at the " + std::string(told(kind)) +
-                                               " at " + frequency(omega) + ": " + why);
+    known_[branch].response.untraced.push_back("the branch that leaves at the " +
+                                               std::string(reported(kind)) + " at " + frequency(omega) +
+                                               ": " + why);
   }
 
   bool is_full() const { return static_cast<int>(known_.size()) >= f_.limits.most_branches; }
 
-  std::string limit_told() const {
+  std::string limit_reported() const {
     return "as many branches as asked for were traced already (most_branches: " +
            std::to_string(f_.limits.most_branches) + ")";
   }
@@ -133,7 +134,8 @@ class AllBranches {
       if (!doubles && kind != event_kinds::symmetry_breaking) continue;
       const double omega = all[e].point.omega;
       const hbm::HbmProblem& narrow = *known_[k].problem;
-      const Harmonics harmonics = without(narrow.harmonics(), doubles ? Lost::period : Lost::mirror_image);
+      const Harmonics harmonics =
+          without(narrow.harmonics(), doubles ? BrokenSymmetry::period : BrokenSymmetry::mirror_image);
       if (doubles && known_[k].doublings >= f_.limits.doublings) {
         untraced(k, kind, omega,
                  "the period was doubled " + std::to_string(known_[k].doublings) +
@@ -149,7 +151,7 @@ class AllBranches {
         const auto wide = in_harmonics(narrow, harmonics, f_.window.lower);
         if (const auto dof = model::drifting_dof(wide->model(), hbm::parameters_at(*wide, omega))) {
           untraced(k, kind, omega,
-                   "no spring holds the mean position of " + model::told(wide->model(), *dof));
+                   "no spring holds the mean position of " + model::coordinate_name(wide->model(), *dof));
           continue;
         }
         at = wider.emplace(kind, WiderBranchPoints(known_[k].problem, wide)).first;
@@ -214,7 +216,7 @@ class AllBranches {
     const std::string kind = ways_[k].kind;
     const double omega = ways_[k].half_branch.x[ways_[k].half_branch.x.size() - 1];
     if (is_full()) {
-      untraced(from, kind, omega, limit_told());
+      untraced(from, kind, omega, limit_reported());
       return;
     }
     ways_[k].followed = true;
@@ -238,7 +240,7 @@ class AllBranches {
     run.course.points.emplace_back(
         -entry->step, run.observer->observe({u, p, ways_[k].half_branch.direction, 0, with.evaluator(),
                                              with.factors(), omega, with.scratch()},
-                                            HeldBy::branch_point));
+                                            PointCondition::branch_point));
     set_apart(event_kinds::branch_point, run.course.points.front().second);
     estimate_as_at(ways_[k], run.course.points.front().second);
     continuation::Start start{entry->v.head(n), hbm::parameters_at(*problem, entry->v[n]), model::frequency,
@@ -319,7 +321,7 @@ class AllBranches {
     run.stop = std::move(traced.stop);
     stopped_ = stopped_ || run.stop.reason == StopReason::user;
     if (!run.end) return;
-    run.course.end_at(run.end->arclength, beside_end * (1 + in.norm_u(run.end->x)));
+    run.course.end_at(run.end->arclength, near_end * (1 + in.norm_u(run.end->x)));
     ResponsePoint& last = run.course.points.back().second;
     if (run.end->way && last.omega == run.end->x[run.end->x.size() - 1])
       estimate_as_at(ways_[*run.end->way], last);
@@ -380,7 +382,7 @@ class AllBranches {
     while (!stopped_ && !is_full()) {
       std::vector<Vector> known = known_at(omega);
       known.insert(known.end(), tried.begin(), tried.end());
-      const auto found = solution_beside(*problem, p, known, f_.go_on);
+      const auto found = solution_nearby(*problem, p, known, f_.go_on);
       if (!found) return;
       tried.push_back(*found);
       add_isolated(*found, omega);
@@ -422,7 +424,7 @@ class AllBranches {
       if (!other.wider && in.dot(other.half_branch.direction, -end.tangent) < same_direction) continue;
       other.followed = true;
       end.way = i;
-      end.message = "reached the " + std::string(told(other.kind)) + " at " +
+      end.message = "reached the " + std::string(reported(other.kind)) + " at " +
                     frequency(event.point.parameter) + " of a branch that is known";
       return end;
     }
@@ -469,7 +471,7 @@ class AllBranches {
     result.stop.message = "reached the end of the window at " + frequency(stop.value);
   }
 
-  const Following& f_;
+  const BranchOptions& f_;
   std::vector<Known> known_;
   std::vector<Way> ways_;
   std::size_t next_ = 0;  // of ways_
@@ -478,7 +480,7 @@ class AllBranches {
 
 }  // namespace
 
-std::vector<TracedBranch> all_branches(std::vector<TracedBranch> given, const Following& following) {
+std::vector<TracedBranch> all_branches(std::vector<TracedBranch> given, const BranchOptions& following) {
   return AllBranches(following).run(std::move(given));
 }
 

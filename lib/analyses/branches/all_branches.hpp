@@ -34,7 +34,7 @@ struct TracedBranch {
 };
 
 /// What is common to all branches.
-struct Following {
+struct BranchOptions {
   FrequencyWindow window;  // rad/s
   scene::FrequencyUnit unit;
   BranchLimits limits;
@@ -44,7 +44,7 @@ struct Following {
 };
 
 /// The given branches, which need stability and branch points among their events, and all others. Branches
-/// that were not followed are told by ResponseBranch::untraced of the one they leave.
-std::vector<TracedBranch> all_branches(std::vector<TracedBranch> given, const Following& following);
+/// that were not followed are determined by ResponseBranch::untraced of the one they leave.
+std::vector<TracedBranch> all_branches(std::vector<TracedBranch> given, const BranchOptions& following);
 
 }  // namespace arcslip::observables

@@ -105,13 +105,13 @@ void estimate_flat_peaks(ResponseBranch& branch) {
     const ResponsePoint& peak = event.point;
     double largest = peak.truncation_estimate;
     int level = 0;
-    const auto is_level = [&](const ResponsePoint& beside) {
-      const double known_to = 2 * (peak.truncation_estimate + beside.truncation_estimate);
-      const double above = beside.amplitude - peak.amplitude;
+    const auto is_level = [&](const ResponsePoint& nearby) {
+      const double known_to = 2 * (peak.truncation_estimate + nearby.truncation_estimate);
+      const double above = nearby.amplitude - peak.amplitude;
       const bool is_known =
-          !beside.truncation_flagged && beside.truncation_estimate < largest_estimate * peak.amplitude;
+          !nearby.truncation_flagged && nearby.truncation_estimate < largest_estimate * peak.amplitude;
       if (!is_known || !(std::abs(above) < known_to)) return false;
-      largest = std::max(largest, beside.truncation_estimate + std::max(above, 0.0));
+      largest = std::max(largest, nearby.truncation_estimate + std::max(above, 0.0));
       ++level;
       return true;
     };

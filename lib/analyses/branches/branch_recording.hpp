@@ -19,13 +19,13 @@ struct Course {
   std::vector<std::pair<double, ResponseEvent>> events;
 
   /// Ends at the branch point there, which becomes the last point. The frequency turns there, and the
-  /// amplitude may, beside the branch point by the rounding of its singular equations: folds and peaks closer
-  /// than `beside` are none.
-  void end_at(double arclength, double beside) {
+  /// amplitude may, next to the branch point by the rounding of its singular equations: folds and peaks
+  /// closer than `next to` are none.
+  void end_at(double arclength, double nearby) {
     std::erase_if(events, [&](const auto& event) {
       const std::string& kind = event.second.kind;
       return (kind == event_kinds::fold || kind == event_kinds::peak) &&
-             std::abs(event.first - arclength) < beside;
+             std::abs(event.first - arclength) < nearby;
     });
     std::erase_if(points, [&](const auto& point) { return point.first >= arclength; });
     std::erase_if(events, [&](const auto& event) { return event.first > arclength; });

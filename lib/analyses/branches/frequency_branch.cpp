@@ -30,10 +30,10 @@ constexpr double events_in_window = 20;            // the same, where only its e
 constexpr double step_between_events = 1.0 / 200;  // relative to the highest frequency
 constexpr double largest_frequency_step = 0.05;  // of the frequency, so that wide windows keep their low end
 constexpr double rejected_in_rounding = 0.5;     // steps, over points: where the branch lies in its rounding
-constexpr double largest_beside_first = 1e8;     // of the response without elements to the first one
+constexpr double largest_near_first = 1e8;       // of the response without elements to the first one
 constexpr int quick_dofs = 200;                  // up to here a problem is made in a tenth of a second
 
-// Beside a drifting degree of freedom: of contacts that open, if there are any.
+// Next to a drifting degree of freedom: of contacts that open, if there are any.
 std::string no_contact_closes(const model::Model& model, const Vector& p) {
   const bool opens = std::any_of(model.elements.begin(), model.elements.end(),
                                  [&](const auto& element) { return model::is_open_at_rest(element, p); });
@@ -69,13 +69,13 @@ namespace {
 std::string held_by_friction(const model::Model& model, const Vector& p) {
   const auto dof = model::drifting_dof(model, p, false);
   if (!dof || model::drifting_dof(model, p)) return {};
-  return "; only friction holds the mean position of " + model::told(model, *dof) +
+  return "; only friction holds the mean position of " + model::coordinate_name(model, *dof) +
          ", and no longer where it slips in each period";
 }
 
 }  // namespace
 
-void speak_of_scene(const model::Model& model, const Vector& p, continuation::Branch& branch) {
+void add_scene_hint(const model::Model& model, const Vector& p, continuation::Branch& branch) {
   using continuation::StopReason;
   if (branch.stop.reason == StopReason::user || branch.stop.reason == StopReason::boundary) return;
   std::string& message = branch.stop.message;
@@ -85,8 +85,8 @@ void speak_of_scene(const model::Model& model, const Vector& p, continuation::Br
   message += held_by_friction(model, p);
 }
 
-void tell_end(const continuation::BranchStop& stop, double from, double upper, scene::FrequencyUnit unit,
-              ResponseBranch& result) {
+void set_end(const continuation::BranchStop& stop, double from, double upper, scene::FrequencyUnit unit,
+             ResponseBranch& result) {
   using continuation::StopReason;
   const auto with_unit = [&](double omega) { return frequency_text(omega, unit); };
   const double per_unit = scene::to_rad_per_s(unit);
@@ -173,7 +173,8 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
     return {
         problem,
         {},
-        "no spring holds the mean position of " + model::told(*model, *dof) + no_contact_closes(*model, p) +
+        "no spring holds the mean position of " + model::coordinate_name(*model, *dof) +
+            no_contact_closes(*model, p) +
             ", and friction leaves it free to drift; add a spring between it and the ground or a supported "
             "degree of freedom, or excite odd harmonics only, with an odd \"period\" of the harmonics, or "
             "let a "
@@ -212,7 +213,7 @@ continuation::Options frequency_options(const FrequencyWindow& window, Steps ste
 }
 
 std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Observer>& observer, Steps steps,
-                                                      const Watched& watched) {
+                                                      const MonitoredEvents& watched) {
   std::vector monitors{continuation::fold_monitor()};  // so that no pair of folds is stepped over
   monitors[0].divides_at_kinks = false;
   if (steps != Steps::passage) {
@@ -232,7 +233,7 @@ namespace {
 
 FrequencyBranch traced(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& u, double from,
                        const continuation::Options& options, const Record& record, int direction, Steps steps,
-                       const Watched& watched) {
+                       const MonitoredEvents& watched) {
   const auto observer = std::make_shared<Observer>(problem);
   continuation::Observer each;
   if (record)
@@ -245,12 +246,12 @@ FrequencyBranch traced(const std::shared_ptr<const hbm::HbmProblem>& problem, co
   FrequencyBranch found{problem, continuation::trace(problem, {u, p, model::frequency, direction}, options,
                                                      std::move(monitors), each)};
   found.unknown_stability = observer->unknown_stability();
-  speak_of_scene(problem->model(), p, found.branch);
+  add_scene_hint(problem->model(), p, found.branch);
   return found;
 }
 
 // The response without the elements over the scale of a problem, if it is larger: where contacts stick, or
-// the ground hardly moves, the first response is small beside all that follows. The middle one of three,
+// the ground hardly moves, the first response is small next to all that follows. The middle one of three,
 // since one of them may be at a resonance. Contacts alone may hold the structure, which then has a response
 // of any size without them.
 double size_without_elements(const hbm::HbmProblem& problem, const FrequencyWindow& window) {
@@ -261,15 +262,15 @@ double size_without_elements(const hbm::HbmProblem& problem, const FrequencyWind
   std::sort(sizes.begin(), sizes.end(),
             [](double a, double b) { return a < b || (!std::isnan(a) && std::isnan(b)); });
   const double size = sizes[1] / problem.displacement();
-  return std::isnan(size) ? 1.0 : std::clamp(size, 1.0, largest_beside_first);
+  return std::isnan(size) ? 1.0 : std::clamp(size, 1.0, largest_near_first);
 }
 
 }  // namespace
 
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record,
-                                 int direction, Steps steps, const GoOn& go_on, const Watched& watched,
-                                 double displacement) {
+                                 int direction, Steps steps, const GoOn& go_on,
+                                 const MonitoredEvents& watched, double displacement) {
   const double width = window.upper - window.lower;
   const FirstResponse first = first_response(model, from, width, go_on);
   if (!first.u) {
@@ -292,7 +293,7 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
 FrequencyBranch frequency_branch_part(const std::shared_ptr<const hbm::HbmProblem>& problem,
                                       const FrequencyWindow& window, double from, double to, const Vector& u,
                                       const Record& record, int direction, Steps steps, const GoOn& go_on,
-                                      const Watched& watched) {
+                                      const MonitoredEvents& watched) {
   continuation::Options options = frequency_options(window, steps, go_on);
   (to > from ? options.upper : options.lower) = to;
   return traced(problem, u, from, options, record, direction, steps, watched);

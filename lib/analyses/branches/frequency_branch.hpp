@@ -66,15 +66,15 @@ std::string doubt_of_rounding(const model::Model& model, const continuation::Vec
 /// For users of scenes: the message of a branch that ended early also names stiffnesses with too large a
 /// ratio, and friction without a stiffness. It does not mention the Jacobian, which is not checked for
 /// scenes.
-void speak_of_scene(const model::Model& model, const continuation::Vector& p, continuation::Branch& branch);
+void add_scene_hint(const model::Model& model, const continuation::Vector& p, continuation::Branch& branch);
 
 /// The end of the message of a branch that left the window where it began.
 inline constexpr const char* nothing_above = ": no response above that frequency was traced";
 
 /// The status and stop of a branch over the frequency from omega = `from` on, in the unit of the scene, once
 /// its points and events are there. upper: of the window, rad/s.
-void tell_end(const continuation::BranchStop& stop, double from, double upper, scene::FrequencyUnit unit,
-              ResponseBranch& result);
+void set_end(const continuation::BranchStop& stop, double from, double upper, scene::FrequencyUnit unit,
+             ResponseBranch& result);
 
 /// Called at each point (event: null) and each event; false stops.
 using Record = std::function<bool(Observer&, const continuation::Accepted&, const continuation::Event*)>;
@@ -87,8 +87,8 @@ inline constexpr double curve_tolerance = 1e-5;
 /// folds at kinks to the length of a step only, for where the branch passes a frequency.
 enum class Steps { curve, events, passage };
 
-/// Which events branches over the frequency have beside folds.
-struct Watched {
+/// Which events branches over the frequency have next to folds.
+struct MonitoredEvents {
   StabilityRequest stability{};  // points have it, and bifurcations are events
   bool phase = false;            // points of phase resonance
   bool branch_points = false;    // where branches of the same harmonics cross
@@ -98,20 +98,20 @@ struct Watched {
 /// Options and monitors of branches over the frequency.
 continuation::Options frequency_options(const FrequencyWindow& window, Steps steps, const GoOn& go_on);
 std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Observer>& observer, Steps steps,
-                                                      const Watched& watched);
+                                                      const MonitoredEvents& watched);
 
 /// Traces from omega = `from` in the window, upwards (direction 1) or downwards (-1). If go_on returns false
 /// the branch ends with reason user. displacement: the scale, m; 0: that of the first response.
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record = {},
                                  int direction = 1, Steps steps = Steps::curve, const GoOn& go_on = {},
-                                 const Watched& watched = {}, double displacement = 0);
+                                 const MonitoredEvents& watched = {}, double displacement = 0);
 
 /// A part of such a branch, with the steps of the whole window: from a response u of `problem` at
 /// omega = `from`, or one close by, to where the branch reaches omega = `to` or an end of the window.
 FrequencyBranch frequency_branch_part(const std::shared_ptr<const hbm::HbmProblem>& problem,
                                       const FrequencyWindow& window, double from, double to,
                                       const continuation::Vector& u, const Record& record, int direction,
-                                      Steps steps, const GoOn& go_on, const Watched& watched);
+                                      Steps steps, const GoOn& go_on, const MonitoredEvents& watched);
 
 }  // namespace arcslip::observables

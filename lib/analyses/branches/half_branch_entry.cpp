@@ -12,7 +12,7 @@ using continuation::Vector;
 
 namespace {
 
-constexpr std::size_t points_around = 12;   // points beside an event in which its branch point is looked for
+constexpr std::size_t points_around = 12;   // points next to an event in which its branch point is looked for
 constexpr double absent = 1e-6;             // of a motion: the harmonics that it lacks
 constexpr double same_branch_point = 1e-7;  // distance of two branch points, relative
 constexpr double resolved_step = 1e-13;     // of a step, in which the zero lies
@@ -66,10 +66,10 @@ void smallest(const continuation::LU<double>& J, Vector& left, Vector& right) {
 
 }  // namespace
 
-elements::Harmonics without(const elements::Harmonics& harmonics, Lost symmetry) {
+elements::Harmonics without(const elements::Harmonics& harmonics, BrokenSymmetry symmetry) {
   elements::Harmonics wide = harmonics;
   wide.odd = false;
-  if (symmetry == Lost::period) {
+  if (symmetry == BrokenSymmetry::period) {
     wide.order *= 2;
     wide.period *= 2;
   }

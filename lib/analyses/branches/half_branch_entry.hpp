@@ -27,10 +27,10 @@ namespace arcslip::observables {
 
 /// What the symmetry is that a motion loses: to be its own mirror image after half a period, or to repeat
 /// after a period.
-enum class Lost { mirror_image, period };
+enum class BrokenSymmetry { mirror_image, period };
 
 /// The harmonics of the motions that have lost it, up to the same frequency.
-elements::Harmonics without(const elements::Harmonics& harmonics, Lost symmetry);
+elements::Harmonics without(const elements::Harmonics& harmonics, BrokenSymmetry symmetry);
 
 /// The same problem in other harmonics of the same excitation. about: as of HbmProblem.
 std::shared_ptr<const hbm::HbmProblem> in_harmonics(const hbm::HbmProblem& problem,

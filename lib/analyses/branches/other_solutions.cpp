@@ -83,7 +83,7 @@ std::vector<Vector> solutions_at(const hbm::HbmProblem& problem, std::span<const
   return all;
 }
 
-std::optional<Vector> solution_beside(const hbm::HbmProblem& problem, const Vector& p,
+std::optional<Vector> solution_nearby(const hbm::HbmProblem& problem, const Vector& p,
                                       const std::vector<Vector>& known, const GoOn& go_on) {
   std::vector<Vector> all, guesses{Vector::Zero(problem.size())};
   if (const Vector linear = hbm::linear_response(problem, p); linear.allFinite()) guesses.push_back(linear);
@@ -149,7 +149,7 @@ std::vector<Vector> on_excitation_branch(const std::shared_ptr<const hbm::HbmPro
 }
 
 // Solutions of `problem` that are none of those known, nor images of them.
-std::vector<Vector> search_beside(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& p,
+std::vector<Vector> search_nearby(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& p,
                                   const std::vector<Vector>& known, const GoOn& go_on) {
   std::vector<Vector> all = known;
   std::vector<bool> is_reached(all.size(), false);  // by the branch over the excitation through another
@@ -167,7 +167,7 @@ std::vector<Vector> search_beside(const std::shared_ptr<const hbm::HbmProblem>& 
         is_reached[at] = true;
       }
     }
-    auto other = solution_beside(*problem, p, all, go_on);
+    auto other = solution_nearby(*problem, p, all, go_on);
     if (!other || index_of(*problem, *other, all) < all.size()) break;
     all.push_back(std::move(*other));
     is_reached.push_back(false);
@@ -181,12 +181,12 @@ std::vector<Vector> search_beside(const std::shared_ptr<const hbm::HbmProblem>& 
 std::vector<Vector> further_responses(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& p,
                                       const std::vector<Vector>& known, const GoOn& go_on) {
   const auto few = proposing(problem);
-  if (few == problem) return search_beside(problem, p, known, go_on);
+  if (few == problem) return search_nearby(problem, p, known, go_on);
   std::vector<Vector> proposed, all = known;
   for (const Vector& u : known)
     if (auto start = hbm::response_near(*few, p, transferred(*problem, u, *few)))
       proposed.push_back(std::move(*start));
-  for (const Vector& u : search_beside(few, p, proposed, go_on))
+  for (const Vector& u : search_nearby(few, p, proposed, go_on))
     if (auto found = hbm::response_near(*problem, p, transferred(*few, u, *problem));
         found && index_of(*problem, *found, all) == all.size())
       all.push_back(std::move(*found));

@@ -1,5 +1,5 @@
 #pragma once
-// Solutions of harmonic balance beside those that are known, at one frequency, which may miss some: a
+// Solutions of harmonic balance next to those that are known, at one frequency, which may miss some: a
 // search by deflation (continuation/diagrams/deflation.hpp), and on branches over the excitation.
 
 #include <arcslip/analyses/branches/frequency_branch.hpp>
@@ -14,7 +14,7 @@
 namespace arcslip::observables {
 
 inline constexpr const char* stopped_in_search =
-    "stopped by the caller, while responses beside those traced were looked for";
+    "stopped by the caller, while responses next to those traced were looked for";
 
 /// A solution u and its images, which are solutions as well: later by periods of the excitation, where the
 /// motion takes several to repeat, or mirrored where the equations have this symmetry.
@@ -29,7 +29,7 @@ std::vector<continuation::Vector> solutions_at(const hbm::HbmProblem& problem,
                                                std::span<const ResponsePoint> branch, double omega);
 
 /// By deflation: a solution at parameters p that is none of those known, which stand for all of their images.
-std::optional<continuation::Vector> solution_beside(const hbm::HbmProblem& problem,
+std::optional<continuation::Vector> solution_nearby(const hbm::HbmProblem& problem,
                                                     const continuation::Vector& p,
                                                     const std::vector<continuation::Vector>& known,
                                                     const GoOn& go_on);

@@ -72,8 +72,8 @@ OverParameter over_parameter(scene::Scene scene, const std::string& over, double
   return result;
 }
 
-void tell_end(const OverParameter& way, const continuation::BranchStop& stop, const std::string& doubt,
-              ResponseBranch& result) {
+void set_end(const OverParameter& way, const continuation::BranchStop& stop, const std::string& doubt,
+             ResponseBranch& result) {
   result.status = status_of(stop.reason);
   result.stop = {reason_of(stop.reason), stop.value, stop.limit, stop.message};
   if (stop.reason != continuation::StopReason::boundary) return;

@@ -44,7 +44,7 @@ OverParameter over_parameter(scene::Scene scene, const std::string& over, double
 
 /// The status and stop of a branch over the parameter, once its events are there. doubt: of one that reaches
 /// the end of the range.
-void tell_end(const OverParameter& way, const continuation::BranchStop& stop, const std::string& doubt,
-              ResponseBranch& result);
+void set_end(const OverParameter& way, const continuation::BranchStop& stop, const std::string& doubt,
+             ResponseBranch& result);
 
 }  // namespace arcslip::observables

@@ -49,10 +49,10 @@ void Passages::add_near(const Vector& guess, bool is_located) {
     doubt = "another response, where the branch passes the frequency, could not be corrected";
 }
 
-// Where the branch passes the value between a fold and a point beside it: corrected in planes normal to the
+// Where the branch passes the value between a fold and a point next to it: corrected in planes normal to the
 // tangent at the fold, since at the value the equations are nearly singular. From the fold the parameter
 // changes as the square of the way. share: of the parameter between the two.
-void Passages::add_between(const continuation::Point& fold, const continuation::Point& beside, double share) {
+void Passages::add_between(const continuation::Point& fold, const continuation::Point& nearby, double share) {
   const Eigen::Index n = fold.u.size();
   Vector at_fold(n + 1), normal(n + 1);
   at_fold << fold.u, fold.parameter;
@@ -60,7 +60,7 @@ void Passages::add_between(const continuation::Point& fold, const continuation::
   continuation::NewtonOptions newton;
   continuation::Counts counts;
   continuation::Corrector corrector(problem_, p_, parameter_, newton, counts);
-  double way = std::sqrt(share) * normal.head(n).dot(beside.u - fold.u);
+  double way = std::sqrt(share) * normal.head(n).dot(nearby.u - fold.u);
   Vector v;
   for (int k = 0; k < most_corrections; ++k) {
     v = at_fold + way * normal;
@@ -73,7 +73,7 @@ void Passages::add_between(const continuation::Point& fold, const continuation::
     }
     way *= std::sqrt(ratio);
   }
-  add_near(fold.u + std::sqrt(share) * (beside.u - fold.u), false);
+  add_near(fold.u + std::sqrt(share) * (nearby.u - fold.u), false);
 }
 
 void Passages::take(const continuation::Branch& branch) {
@@ -81,9 +81,9 @@ void Passages::take(const continuation::Branch& branch) {
     if (event.monitor == event_kinds::passage) add_near(event.point.u, event.located);
     if (event.monitor != event_kinds::fold || event.after + 1 >= branch.points.size()) continue;
     for (const std::size_t i : {event.after, event.after + 1}) {
-      const continuation::Point &fold = event.point, &beside = branch.points[i];
-      const double share = (fold.parameter - value_) / (fold.parameter - beside.parameter);
-      if (share > 0 && share < 1) add_between(fold, beside, share);
+      const continuation::Point &fold = event.point, &nearby = branch.points[i];
+      const double share = (fold.parameter - value_) / (fold.parameter - nearby.parameter);
+      if (share > 0 && share < 1) add_between(fold, nearby, share);
     }
   }
 }

@@ -32,7 +32,7 @@ class Passages {
 
  private:
   void add_near(const continuation::Vector& guess, bool is_located);
-  void add_between(const continuation::Point& fold, const continuation::Point& beside, double share);
+  void add_between(const continuation::Point& fold, const continuation::Point& nearby, double share);
 
   const hbm::HbmProblem& problem_;
   continuation::Vector p_;

@@ -7,7 +7,7 @@
 // g is the cosine of the phase by which the motion, along the forces, lags behind them: a quarter period at
 // phase resonance, where it falls through zero; at an antiresonance it rises. Under one force it is that of
 // the degree of freedom that the force acts at; of a moving base the motion relative to it counts. Lightly
-// damped, the resonance peak lies beside it by terms of the order of the damping ratio squared.
+// damped, the resonance peak lies next to it by terms of the order of the damping ratio squared.
 
 #include <arcslip/observables/observe.hpp>
 

@@ -85,16 +85,16 @@ Resonances resonances(const model::Model& model, const continuation::Vector& p, 
 
 namespace {
 
-/// told: the text of some modes.
-template <class Told>
-std::string sentence(const Resonances& all, Told told) {
+/// reported: the text of some modes.
+template <class Reported>
+std::string sentence(const Resonances& all, Reported reported) {
   if (all.free.empty() && all.stuck.empty()) return "";
   std::string text = "natural frequencies";
   if (all.harmonic > 1)
     text += " over " + std::to_string(all.harmonic) + " (the lowest harmonic of the excitation)";
-  if (all.stuck.empty()) return text + ": " + told(all.free);
-  return text + " with all contacts free: " + (all.free.empty() ? "none" : told(all.free)) +
-         "; stuck: " + told(all.stuck);
+  if (all.stuck.empty()) return text + ": " + reported(all.free);
+  return text + " with all contacts free: " + (all.free.empty() ? "none" : reported(all.free)) +
+         "; stuck: " + reported(all.stuck);
 }
 
 }  // namespace

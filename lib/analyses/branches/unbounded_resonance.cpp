@@ -18,9 +18,9 @@ constexpr double near_pole = 1e-9, off_pole = 1e-5;  // of omega: where it is lo
 constexpr double grows = 100;                        // between these: less is no pole, whose growth is 1e4
 constexpr double large = 1e6;                        // of that response, as a shape of large amplitude
 constexpr double negligible = 1e-9;  // share of a shape in an element or damper that does not count
-constexpr double least_part = 1e-4;  // of a shape in a law whose work grows: less moves beside the resonance
+constexpr double least_part = 1e-4;  // of a shape in a law whose work grows: less moves next to the resonance
 constexpr double beyond_display = 1e6;  // |u| in scales: larger responses may be unbounded
-constexpr double close_by = 1e-5;       // of its frequency: as near a pole is told, and known to 1e-10
+constexpr double close_by = 1e-5;       // of its frequency: as near a pole is reported, and known to 1e-10
 constexpr double agrees = 0.1;          // of the distance to a pole: that to which its estimates agree
 constexpr double on_end = 1e-9;         // of the frequency at an end of the window: there, too, is a pole
 constexpr double least_beyond = 1e-6;  // of the pole's frequency: nearer, a start would be taken for the pole
@@ -44,11 +44,11 @@ int largest_order(const elements::Harmonics& h, elements::In q) {
 }
 
 // power: of the amplitude, from which on an elastic force bounds the response.
-Unboundedness balance(const hbm::HbmProblem& problem, const continuation::Vector& p,
-                      const continuation::Vector& u, double power) {
+UnboundedGrowth balance(const hbm::HbmProblem& problem, const continuation::Vector& p,
+                        const continuation::Vector& u, double power) {
   const auto& model = problem.model();
   const auto evaluator = problem.hbm_evaluator();
-  Unboundedness result;
+  UnboundedGrowth result;
   std::ostringstream text;
   text.precision(6);
   if (evaluator->move_to(u, p, continuation::Needs::residual) != continuation::Evaluated::ok) {
@@ -126,12 +126,12 @@ constexpr double faster = 1.5, as_fast = 1;
 
 }  // namespace
 
-Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::Vector& p,
-                            const continuation::Vector& u) {
+UnboundedGrowth unboundedness(const hbm::HbmProblem& problem, const continuation::Vector& p,
+                              const continuation::Vector& u) {
   return balance(problem, p, u, faster);
 }
 
-Unboundedness unbounded_resonance(const std::shared_ptr<const model::Model>& model, double omega) {
+UnboundedGrowth unbounded_resonance(const std::shared_ptr<const model::Model>& model, double omega) {
   constexpr double at_rest = 0;  // without modes, which cost more than two evaluations
   const hbm::HbmProblem problem(model, model->harmonics, 1, 1, at_rest);
   const continuation::Vector p = hbm::parameters_at(problem, omega * (1 + near_pole));

@@ -17,19 +17,19 @@
 
 namespace arcslip::observables {
 
-struct Unboundedness {
+struct UnboundedGrowth {
   bool unbounded = false;
   double input = 0, dissipation = 0;  // N: per period and unit amplitude, divided by pi
   std::string message;
 };
 
 /// At a response u of very large amplitude.
-Unboundedness unboundedness(const hbm::HbmProblem& problem, const continuation::Vector& p,
-                            const continuation::Vector& u);
+UnboundedGrowth unboundedness(const hbm::HbmProblem& problem, const continuation::Vector& p,
+                              const continuation::Vector& u);
 
 /// At an excitation frequency omega (rad/s) with the model's own parameters, if the linear response has a
 /// pole within about 1e-7 omega; otherwise nothing is unbounded.
-Unboundedness unbounded_resonance(const std::shared_ptr<const model::Model>& model, double omega);
+UnboundedGrowth unbounded_resonance(const std::shared_ptr<const model::Model>& model, double omega);
 
 /// Where a branch goes on beyond a pole.
 struct BeyondPole {
@@ -56,7 +56,7 @@ class PoleWatch {
                        const continuation::Vector& u);
 
   /// There; before, why the response is bounded, as far as it was asked.
-  const Unboundedness& growth() const { return growth_; }
+  const UnboundedGrowth& growth() const { return growth_; }
   double pole() const { return pole_; }  // rad/s
   BeyondPole beyond() const;
 
@@ -69,7 +69,7 @@ class PoleWatch {
 
   double lower_, upper_, pole_ = 0;
   std::vector<Place> course_;
-  Unboundedness growth_;
+  UnboundedGrowth growth_;
 };
 
 }  // namespace arcslip::observables

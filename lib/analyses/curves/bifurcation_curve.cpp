@@ -70,7 +70,7 @@ SpecialCurve BifurcationTracer::run(const SpecialPoint& start, int direction) {
   options.go_on = go_on_;
   continuation::Branch branch = continuation::trace(
       equations_, {*x, parameters(start.x, start.over), way_.index, direction}, options, monitors(), record);
-  speak_of_scene(problem_->model(), parameters(start.x, start.over), branch);
+  add_scene_hint(problem_->model(), parameters(start.x, start.over), branch);
   add(branch.counts, result.counts);
   end.stop = branch.stop;
   if (branch.points.empty()) return result;
@@ -79,7 +79,7 @@ SpecialCurve BifurcationTracer::run(const SpecialPoint& start, int direction) {
   end.x = last.u.head(n + 1);
   end.over = last.parameter;
   end.direction = last.tangent[last.tangent.size() - 1] < 0 ? -1 : 1;
-  tell_end(branch, end);
+  set_end(branch, end);
   return result;
 }
 
@@ -88,7 +88,7 @@ bool BifurcationTracer::ends_curve(const std::string& event) const {
          (is_pair() && (event == event_kinds::resonance_1_1 || event == event_kinds::resonance_1_2));
 }
 
-void BifurcationTracer::tell_end(const continuation::Branch& branch, SpecialCurveEnd& end) const {
+void BifurcationTracer::set_end(const continuation::Branch& branch, SpecialCurveEnd& end) const {
   const continuation::StopReason reason = branch.stop.reason;
   end.closed = reason == StopReason::closed;
   if (reason == StopReason::event) {
@@ -170,7 +170,7 @@ bool BifurcationTracer::is_phase() const {
 }
 
 ResponsePoint BifurcationTracer::observe(const Accepted& now) {
-  ResponsePoint point = section_->observe(now, HeldBy::parameter);
+  ResponsePoint point = section_->observe(now, PointCondition::parameter);
   if (point.stability && !is_phase())
     set_apart(kind_, problem_->harmonics().odd, is_pair() ? now.u[problem_->size() + 1] : 0,
               *point.stability);

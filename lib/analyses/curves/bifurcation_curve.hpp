@@ -6,7 +6,7 @@
 //
 // A curve ends where the pair of a Neimark-Sacker point becomes real: at 1 on a curve of folds, at -1 on one
 // of period doublings; and where the multipliers jump across the unit circle, as at the birth of slip. Each
-// end is looked at: the jump is told by the multipliers on both sides of it.
+// end is looked at: the jump is determined by the multipliers on both sides of it.
 
 #include <arcslip/analyses/curves/bifurcations.hpp>
 #include <arcslip/analyses/curves/special_curve.hpp>
@@ -32,7 +32,7 @@ class BifurcationTracer final : public CurveTracer {
   std::optional<continuation::Vector> start_of(const SpecialPoint& start) const;
   std::vector<continuation::Monitor> monitors() const;
   ResponsePoint observe(const continuation::Accepted& now);
-  void tell_end(const continuation::Branch& branch, SpecialCurveEnd& end) const;
+  void set_end(const continuation::Branch& branch, SpecialCurveEnd& end) const;
   std::optional<double> jump_beyond(const continuation::Point& last) const;
   bool is_pair() const;
   bool is_phase() const;

@@ -7,7 +7,7 @@
 //   stability/multipliers.hpp symmetry_breaking   lambda = -1   the same with lambda neimark_sacker      mu =
 //   exp(+- i phi)       g_1 = mu_1 + mu_2 - 2 kappa,  g_2 = mu_1 mu_2 - 1
 //
-// kappa = cos phi is an unknown, which tells apart the pairs: mu_1 and mu_2 are
+// kappa = cos phi is an unknown, which distinguishes the pairs: mu_1 and mu_2 are
 // the pair nearest to those with this kappa. Their sum and product are smooth also where the two meet and
 // become real, kappa = 1 and -1, beyond which there is no Neimark-Sacker point.
 //

@@ -56,16 +56,16 @@ using Coefficients = std::array<double, 3>;
 
 // Of y = c_0 s^n + c_1 s^(n+1) + ... with so many terms, by least squares; NaN without as many neighbours.
 // first: in place of s^n.
-Coefficients fitted(const std::vector<Neighbour>& beside, int n, int terms, const NeighbourQuantity& y_of,
+Coefficients fitted(const std::vector<Neighbour>& nearby, int n, int terms, const NeighbourQuantity& y_of,
                     const NeighbourQuantity& first = {}) {
-  const auto rows = static_cast<Eigen::Index>(beside.size());
+  const auto rows = static_cast<Eigen::Index>(nearby.size());
   if (rows < terms) return {no_value, no_value, no_value};
   double size = 0;  // of s
-  for (const Neighbour& at : beside) size = std::max(size, std::abs(at.s));
+  for (const Neighbour& at : nearby) size = std::max(size, std::abs(at.s));
   Eigen::MatrixXd powers(rows, terms);
   Eigen::VectorXd y(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
-    const Neighbour& at = beside[static_cast<std::size_t>(i)];
+    const Neighbour& at = nearby[static_cast<std::size_t>(i)];
     for (int k = 0; k < terms; ++k) powers(i, k) = std::pow(at.s / size, n + k);
     if (first) powers(i, 0) = first(at);
     y[i] = y_of(at);
@@ -88,7 +88,7 @@ struct Changes {
 
 class Event {
  public:
-  Event(std::vector<Neighbour> beside, const ResponsePoint& at) : beside_(std::move(beside)), at_(at) {}
+  Event(std::vector<Neighbour> nearby, const ResponsePoint& at) : nearby_(std::move(nearby)), at_(at) {}
 
   Changes extremum(double ResponsePoint::*y, double ResponsePoint::*dy) const {
     const double along = -course(dy, 1)[0] / (2 * course(y, 2)[0]);
@@ -111,11 +111,11 @@ class Event {
       return -at.point->location_change * (2 * y[0] * at.s + 3 * y[1] * at.s * at.s) /
              (w[0] + 2 * w[1] * at.s);
     };
-    const auto of_parameter = fitted(beside_, 0, 2, [&](const Neighbour& at) { return by_frequency(p, at); });
-    const auto of_amplitude = fitted(beside_, 0, 2, [&](const Neighbour& at) {
+    const auto of_parameter = fitted(nearby_, 0, 2, [&](const Neighbour& at) { return by_frequency(p, at); });
+    const auto of_amplitude = fitted(nearby_, 0, 2, [&](const Neighbour& at) {
       return at.point->truncation_change + by_frequency(A, at);
     });
-    const bool has_pole = std::all_of(beside_.begin(), beside_.end(), [&](const Neighbour& at) {
+    const bool has_pole = std::all_of(nearby_.begin(), nearby_.end(), [&](const Neighbour& at) {
       return std::abs(by_frequency(p, at) - of_parameter[0]) <= std::abs(of_parameter[0]);
     });
     if (!has_pole) return {};
@@ -130,13 +130,13 @@ class Event {
     if (!turns()) return {};
     const auto p = course(&ResponsePoint::over, 2, 3), A = course(&ResponsePoint::amplitude, 1, 3);
     const auto [e, cubic, rest] = fitted(
-        beside_, 2, 3, [&](const Neighbour& at) { return at.point->omega - at_.omega; },
+        nearby_, 2, 3, [&](const Neighbour& at) { return at.point->omega - at_.omega; },
         [&](const Neighbour& at) { return at.point->over - at_.over; });
-    const auto d = fitted(beside_, 0, 3, [](const Neighbour& at) { return at.point->location_change; });
+    const auto d = fitted(nearby_, 0, 3, [](const Neighbour& at) { return at.point->location_change; });
     const double parameter = -2 * p[0] * d[1] / (3 * cubic);
     // At its value of p the fold moves as 1/s, and with it dA.
     const auto pole =
-        fitted(beside_, 0, 3, [](const Neighbour& at) { return at.point->truncation_change * at.s; });
+        fitted(nearby_, 0, 3, [](const Neighbour& at) { return at.point->truncation_change * at.s; });
     const double moved = e * parameter, grown = (A[1] - 0.75 * A[0] * p[1] / p[0]) * parameter / p[0];
     return {.parameter = parameter,
             .frequency = d[0] + moved,
@@ -151,17 +151,17 @@ class Event {
   // Whether p = p_0 + c s^2 next to the event, which is not so within the accuracy of its location.
   bool turns() const {
     const auto p = course(&ResponsePoint::over, 1, 3);
-    return !beside_.empty() && std::abs(p[0]) <= located * std::abs(p[1]) * reach();
+    return !nearby_.empty() && std::abs(p[0]) <= located * std::abs(p[1]) * reach();
   }
 
-  double reach() const { return std::max(-beside_.front().s, beside_.back().s); }
+  double reach() const { return std::max(-nearby_.front().s, nearby_.back().s); }
 
   // Of y from the event on, from the power n.
   Coefficients course(double ResponsePoint::*y, int n, int terms = 2) const {
-    return fitted(beside_, n, terms, [&](const Neighbour& at) { return at.point->*y - at_.*y; });
+    return fitted(nearby_, n, terms, [&](const Neighbour& at) { return at.point->*y - at_.*y; });
   }
 
-  std::vector<Neighbour> beside_;
+  std::vector<Neighbour> nearby_;
   const ResponsePoint& at_;
 };
 
@@ -182,10 +182,10 @@ void forget_estimates(ResponsePoint& at) {
 void estimate_change(const SpecialCurve& curve, double arclength, ResponseEvent& event) {
   ResponsePoint& at = event.point;
   const bool is_cusp = event.kind == event_kinds::cusp;
-  std::vector<Neighbour> beside;
+  std::vector<Neighbour> nearby;
   double to_corner = 0;
-  if (!event.nonsmooth && event.located) beside = neighbours_of(curve, arclength, to_corner);
-  const Event it(beside, at);
+  if (!event.nonsmooth && event.located) nearby = neighbours_of(curve, arclength, to_corner);
+  const Event it(nearby, at);
   Changes changes;
   if (event.kind == event_kinds::minimum || event.kind == event_kinds::maximum)
     changes = it.extremum(&ResponsePoint::amplitude, &ResponsePoint::truncation_change);
@@ -206,16 +206,16 @@ void estimate_change(const SpecialCurve& curve, double arclength, ResponseEvent&
     at.truncation_change = changes.amplitude;
     if (is_cusp)
       at.truncation_flagged =
-          changes.doubtful || std::any_of(beside.begin(), beside.end(), [](const Neighbour& each) {
+          changes.doubtful || std::any_of(nearby.begin(), nearby.end(), [](const Neighbour& each) {
             return each.point->truncation_flagged;
           });
   }
   const auto move = [&](auto list) {  // the shares of stick change along the curve
     for (std::size_t e = 0; e < (at.*list).size(); ++e) {
-      const double from = (beside.front().point->*list)[e].stick_percent,
-                   to = (beside.back().point->*list)[e].stick_percent;
+      const double from = (nearby.front().point->*list)[e].stick_percent,
+                   to = (nearby.back().point->*list)[e].stick_percent;
       (at.*list)[e].stick_estimate +=
-          std::abs((to - from) / (beside.back().s - beside.front().s) * changes.along);
+          std::abs((to - from) / (nearby.back().s - nearby.front().s) * changes.along);
     }
   };
   move(&ResponsePoint::elements);

@@ -145,8 +145,10 @@ continuation::Branch SpecialCurveTracer::trace(const CurveStart& from) {
   }
   const auto second = continuation::cusp_monitor().value;
   const double begin = arclength_;
-  const HeldBy held = corner ? HeldBy::corner : kind_.maximum ? HeldBy::extremum : HeldBy::fold;
-  const auto observe = [&](const Accepted& now, HeldBy by) {
+  const PointCondition held = corner          ? PointCondition::corner
+                              : kind_.maximum ? PointCondition::extremum
+                                              : PointCondition::fold;
+  const auto observe = [&](const Accepted& now, PointCondition by) {
     ResponsePoint point = section_->observe(now, by);
     set_apart(kind_.event, point);
     return point;
@@ -184,7 +186,7 @@ continuation::Branch SpecialCurveTracer::trace(const CurveStart& from) {
                           {corner ? hbm::with_angles(from.x, *from.corner) : from.x,
                            parameters(from.x, from.over), way_.index, from.direction},
                           options, std::move(monitors), record);
-  speak_of_scene(problem_->model(), parameters(from.x, from.over), branch);
+  add_scene_hint(problem_->model(), parameters(from.x, from.over), branch);
   if (!branch.points.empty()) {  // what was seen beyond a terminal event is none of it
     arclength_ = begin + branch.points.back().arclength;
     const auto beyond = [&](const auto& each) { return each.arclength > arclength_; };

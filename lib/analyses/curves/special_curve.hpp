@@ -43,7 +43,7 @@ struct SpecialCurveEnd {
   bool goes_on = false;                     // another curve starts or ends there
   std::string unbounded{};                  // why, where the response grows without bound
   const results::Reason* reason = nullptr;  // of results/reasons.hpp, where the curve is complete for it,
-  std::string why{};                        // and the sentence that tells it, without the place
+  std::string why{};                        // and the sentence that reports it, without the place
 };
 
 /// The record of one curve, in order of arclength.
@@ -144,12 +144,12 @@ class SpecialCurveTracer final : public CurveTracer {
   void end_at(std::size_t count, bool closed);
   bool is_repeated(const SpecialCurve::EventAt& event) const;
   std::optional<CurveStart> to_corner(const CurveStart& at);
-  struct Beside {
+  struct Comparison {
     CurveStart place;
     hbm::CornerSlopes slopes;
   };
-  std::optional<Beside> corner_beside(const CurveStart& at, const hbm::Corner& corner, int direction,
-                                      double beside) const;
+  std::optional<Comparison> corner_nearby(const CurveStart& at, const hbm::Corner& corner, int direction,
+                                          double nearby) const;
   bool is_special(const hbm::CornerSlopes& slopes) const;
   std::optional<CurveStart> leave_corner(const CurveStart& at, bool above);
   std::optional<CurveStart> to_crossing_corner(const CurveStart& at);

@@ -17,7 +17,7 @@ using continuation::Vector;
 constexpr double same_frequency = 1e-6,
                  same_motion = 1e-4;   // relative: special points that differ by less are one
 constexpr double beyond_chord = 1e-2;  // of a chord of the curve: where a point may still lie on it
-constexpr double beside_chord = 1e-3;  // of the frequency, farther off than the chord is long
+constexpr double near_chord = 1e-3;    // of the frequency, farther off than the chord is long
 
 }  // namespace
 
@@ -44,7 +44,7 @@ SpecialCurve joined(SpecialCurve back, SpecialCurve ahead) {
 }
 
 // The curve between two of its points is corrected in the plane across their chord that contains the point
-// sought: so it is told from others where it turns, too.
+// sought: so it is distinguished from others where it turns, too.
 std::size_t CurveTracer::passage(const SpecialCurve& curve, std::size_t points, const SpecialPoint& through,
                                  const LiesOn& lies_on) const {
   const Eigen::Index n = problem_->size();
@@ -60,7 +60,7 @@ std::size_t CurveTracer::passage(const SpecialCurve& curve, std::size_t points, 
   for (std::size_t i = 1; i < points; ++i) {
     const auto &a = curve.points[i - 1], &b = curve.points[i];
     if (std::abs(a.point.omega - through.x[n]) >
-        2 * std::abs(b.point.omega - a.point.omega) + beside_chord * a.point.omega)
+        2 * std::abs(b.point.omega - a.point.omega) + near_chord * a.point.omega)
       continue;
     const Vector first = all_of(a.point), chord = all_of(b.point) - first;
     const Vector scaled = chord.cwiseQuotient(scales), way = (sought - first).cwiseQuotient(scales);

@@ -49,21 +49,21 @@ std::optional<Vector> CurveTracer::corrected(const continuation::Problem& proble
 }
 
 // The corner at a slightly different parameter, and the slopes on its sides.
-std::optional<SpecialCurveTracer::Beside> SpecialCurveTracer::corner_beside(const CurveStart& at,
-                                                                            const hbm::Corner& corner,
-                                                                            int direction,
-                                                                            double beside) const {
+std::optional<SpecialCurveTracer::Comparison> SpecialCurveTracer::corner_nearby(const CurveStart& at,
+                                                                                const hbm::Corner& corner,
+                                                                                int direction,
+                                                                                double nearby) const {
   const Eigen::Index n = problem_->size();
   const auto unknowns = n + 1 + static_cast<Eigen::Index>(corner.angles.size());
-  const double over = at.over * (1 + direction * beside);
+  const double over = at.over * (1 + direction * nearby);
   if (!inside(over)) return {};
   const auto v = corrected(*hbm::corner_points(problem_, corner), hbm::with_angles(at.x, corner), over,
                            Vector::Unit(unknowns + 1, unknowns), near_corner);
   if (!v) return {};
   const Vector all = v->head(unknowns);
   hbm::CornerSides sides(problem_, corner, kind_.quantity);
-  return Beside{{all.head(n + 1), over, direction, hbm::at_angles(corner, all)},
-                sides.slopes(all, parameters(all, over))};
+  return Comparison{{all.head(n + 1), over, direction, hbm::at_angles(corner, all)},
+                    sides.slopes(all, parameters(all, over))};
 }
 
 bool SpecialCurveTracer::is_special(const hbm::CornerSlopes& slopes) const {
@@ -76,10 +76,10 @@ bool SpecialCurveTracer::is_special(const hbm::CornerSlopes& slopes) const {
 std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::to_corner(const CurveStart& at) {
   for (const auto& corner :
        hbm::corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), near_corner))
-    for (const double beside : besides) {
+    for (const double nearby : besides) {
       std::vector<hbm::CornerSlopes> found;
       for (const int direction : {at.direction, -at.direction}) {
-        const auto there = corner_beside(at, corner, direction, beside);
+        const auto there = corner_nearby(at, corner, direction, nearby);
         if (!there) continue;
         if (is_special(there->slopes)) return there->place;
         found.push_back(there->slopes);
@@ -110,8 +110,8 @@ std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::to_crossing_co
       hbm::corners_near(*problem_, at.x.head(problem_->size()), parameters(at.x, at.over), corners_meeting);
   bool found = false;
   for (const auto& corner : crossing)
-    for (const double beside : besides)
-      if (const auto there = corner_beside(at, corner, at.direction, beside)) {
+    for (const double nearby : besides)
+      if (const auto there = corner_nearby(at, corner, at.direction, nearby)) {
         if (is_special(there->slopes)) return there->place;
         found = true;
       }
@@ -133,10 +133,10 @@ std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::seen_beyond(co
 std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::seen_beyond(const CurveStart& at,
                                                                               OtherBranches others) {
   const Eigen::Index n = problem_->size();
-  for (const double beside : seen_besides) {
+  for (const double nearby : seen_besides) {
     const auto seen = [&](int direction) {
       std::vector<SpecialPoint> near;
-      const double over = at.over * (1 + direction * beside);
+      const double over = at.over * (1 + direction * nearby);
       if (!inside(over)) return near;
       const auto response = special_points(way_, over, window_, {kind_.event}, others, go_on_);
       if (!response.failure.empty() || !response.unbounded.empty()) return near;
@@ -153,7 +153,7 @@ std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::seen_beyond(co
                               [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
     };
     const auto reaches = [&](const SpecialPoint& point) {
-      return distance(point) < root_reach * std::sqrt(beside);
+      return distance(point) < root_reach * std::sqrt(nearby);
     };
     const auto before = seen(-at.direction), beyond = seen(at.direction);
     if (before.empty() || !reaches(*nearest(before))) continue;
@@ -200,9 +200,9 @@ std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::from_corner(co
                                                                               bool above) const {
   const Eigen::Index n = problem_->size();
   const double size = hbm::corner_size(*problem_, *at.corner, at.x.head(n), parameters(at.x, at.over));
-  for (const double beside : besides) {
+  for (const double nearby : besides) {
     const auto v =
-        at_depth(at, (above ? beside : -beside) * size, near_corner + root_reach * std::sqrt(beside));
+        at_depth(at, (above ? nearby : -nearby) * size, near_corner + root_reach * std::sqrt(nearby));
     if (!v) continue;
     const double over = (*v)[n + 1];
     if (inside(over) && std::abs(over - at.over) > least_change * at.over)

@@ -61,7 +61,7 @@ bool CurveSection::linearize() {
   return true;
 }
 
-ResponsePoint CurveSection::observe(In x, In p, HeldBy held, bool maxima) {
+ResponsePoint CurveSection::observe(In x, In p, PointCondition held, bool maxima) {
   move_to(x, p, Needs::jacobian);
   linearize();
   continuation::Scratch none;
@@ -69,8 +69,8 @@ ResponsePoint CurveSection::observe(In x, In p, HeldBy held, bool maxima) {
                            maxima);
 }
 
-ResponsePoint CurveSection::observe(const Accepted& now, HeldBy held) {
-  ResponsePoint point = observe(now.u, now.p, held, held != HeldBy::parameter);
+ResponsePoint CurveSection::observe(const Accepted& now, PointCondition held) {
+  ResponsePoint point = observe(now.u, now.p, held, held != PointCondition::parameter);
   point.over = now.parameter;
   return point;
 }

@@ -23,10 +23,11 @@ class CurveSection {
 
   /// All observables at a point of the curve, including `over`. truncation_estimate is 0 and flagged if the
   /// branch has no tangent.
-  ResponsePoint observe(const continuation::Accepted& now, HeldBy held = HeldBy::extremum);
+  ResponsePoint observe(const continuation::Accepted& now, PointCondition held = PointCondition::extremum);
 
   /// The same at a solution x = (u, omega) with all parameters p, and with the maxima.
-  ResponsePoint observe(continuation::In x, continuation::In p, HeldBy held = HeldBy::extremum) {
+  ResponsePoint observe(continuation::In x, continuation::In p,
+                        PointCondition held = PointCondition::extremum) {
     return observe(x, p, held, true);
   }
 
@@ -40,7 +41,7 @@ class CurveSection {
   double last_amplitude() const { return observer_.last_amplitude(); }
 
  private:
-  ResponsePoint observe(continuation::In x, continuation::In p, HeldBy held, bool maxima);
+  ResponsePoint observe(continuation::In x, continuation::In p, PointCondition held, bool maxima);
   bool move_to(continuation::In x, continuation::In p, continuation::Needs needs);
   bool linearize();
 

@@ -83,7 +83,7 @@ class SpecialPointSearch {
     };
   }
 
-  // What a traced branch tells besides its special points, those from `first` on.
+  // What a traced branch reports besides its special points, those from `first` on.
   void take(const FrequencyBranch& traced, std::size_t first) {
     problem_ = traced.problem;
     if (found_.unknown_stability.empty()) found_.unknown_stability = traced.unknown_stability;
@@ -159,7 +159,7 @@ class SpecialPointSearch {
   const std::vector<std::string>& kinds_;
   const GoOn& go_on_;
   bool stability_;
-  Watched watched_;
+  MonitoredEvents watched_;
   SpecialPoints found_;
   std::shared_ptr<const hbm::HbmProblem> problem_;  // of the branch that was traced last
   std::vector<std::pair<double, Vector>> ends_;     // of all branches, at the ends of the window

@@ -49,8 +49,8 @@ enum class OtherBranches {
 
 /// The special points in a frequency window at the value `over` of the parameter, on the branch from its
 /// lower end on, and on others. kinds: of events, event_kinds::peak, fold, or of_curves, for which
-/// multipliers are computed and the branches that leave are told. If go_on returns false, the points found so
-/// far.
+/// multipliers are computed and the branches that leave are reported. If go_on returns false, the points
+/// found so far.
 SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
                              const std::vector<std::string>& kinds, OtherBranches others,
                              const GoOn& go_on = {});

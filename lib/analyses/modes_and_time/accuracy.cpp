@@ -23,7 +23,7 @@ constexpr std::array samples_per_order{8, 64};                      // of sample
 constexpr std::array steps_of_period{50, 200, 800, 3200};           // of a period
 constexpr int runs = 3;                                             // at most
 constexpr double long_enough = 0.1;                                 // s: no further run
-constexpr double decades[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8};  // that the sentence tells
+constexpr double decades[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8};  // that the sentence reports
 
 class Trials {
  public:
@@ -63,8 +63,8 @@ class Trials {
   };
 
   bool go_on() {
-    told_.points = static_cast<long>(result_.trials.size());
-    if (!stopped_ && progress_ && !progress_(told_)) stopped_ = true;
+    reported_.points = static_cast<long>(result_.trials.size());
+    if (!stopped_ && progress_ && !progress_(reported_)) stopped_ = true;
     return !stopped_ && failure_.empty();
   }
 
@@ -238,7 +238,7 @@ class Trials {
   const ProgressCallback& progress_;
   std::vector<int> orders_;
   Accuracy result_;
-  results::Progress told_{};
+  results::Progress reported_{};
   std::string failure_;
   bool stopped_ = false;
 };

@@ -6,9 +6,9 @@
 //
 //   |A - A_ref|/A_ref
 //
-// beside the peak by harmonic balance of a higher order with exact integrals, whose own error is told by the
-// order before it. In time, A is the amplitude at the frequency of that peak, by shooting from rest: where
-// there are several motions it may be that of another one.
+// next to the peak by harmonic balance of a higher order with exact integrals, whose own error is determined
+// by the order before it. In time, A is the amplitude at the frequency of that peak, by shooting from rest:
+// where there are several motions it may be that of another one.
 
 #include <arcslip/analyses/modes_and_time/time_results.hpp>
 #include <arcslip/analyses/responses/frequency_response.hpp>
@@ -49,7 +49,7 @@ struct Trial {
   double seconds_per_point() const { return points > 0 ? seconds / static_cast<double>(points) : 0; }
 };
 
-/// complete: all computations that were asked for; those that failed are told in `left_out`.
+/// complete: all computations that were asked for; those that failed are reported in `left_out`.
 struct Accuracy {
   std::string study, kind;  // name and kind of its study; may be empty
   Status status = Status::complete;

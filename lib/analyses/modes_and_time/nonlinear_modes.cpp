@@ -163,7 +163,7 @@ class ModeStudy {
     monitors.push_back(continuation::bound_monitor(outgrown, problem->log_ratio(), std::log(largest_ratio)));
     auto traced = continuation::trace(problem, {u, Vector::Constant(1, options.lower), 0, 1}, options,
                                       monitors, record);
-    speak_of_scene(*model_, model::defaults(*model_), traced);
+    add_scene_hint(*model_, model::defaults(*model_), traced);
     return traced;
   }
 
@@ -189,11 +189,11 @@ class ModeStudy {
       return true;
     }
     course_.emplace_back(now.arclength, 1 + point.damping_ratio);
-    told_.points = static_cast<long>(result_.points.size()) + 1;
-    told_.step = (point.omega - last_) / scene::to_rad_per_s(unit_);
+    reported_.points = static_cast<long>(result_.points.size()) + 1;
+    reported_.step = (point.omega - last_) / scene::to_rad_per_s(unit_);
     last_ = point.omega;
-    told_.frequency = last_ / scene::to_rad_per_s(unit_);
-    told_.share_done =
+    reported_.frequency = last_ / scene::to_rad_per_s(unit_);
+    reported_.share_done =
         std::clamp(std::log(point.amplitude / range_.from) / std::log(range_.to / range_.from), 0.0, 1.0);
     result_.points.push_back(std::move(point));
     return go_on();
@@ -247,7 +247,7 @@ class ModeStudy {
 
   // Reports progress and checks for a stop, also between points.
   bool go_on() {
-    if (!stopped_ && progress_ && !progress_(told_)) stopped_ = true;
+    if (!stopped_ && progress_ && !progress_(reported_)) stopped_ = true;
     return !stopped_;
   }
 
@@ -323,7 +323,8 @@ class ModeStudy {
         result_.events.erase(result_.events.begin() + static_cast<std::ptrdiff_t>(i));
   }
 
-  // The first and the last point are events too: of a mode without others, all that is told of it in short.
+  // The first and the last point are events too: of a mode without others, all that is reported of it in
+  // short.
   void add_ends() {
     if (result_.points.empty()) return;
     const auto end = [](const char* kind, const ResponsePoint& point, std::size_t after) {
@@ -343,7 +344,7 @@ class ModeStudy {
   ResponseBranch result_;
   std::vector<std::pair<double, double>> course_;  // arclength, 1 + zeta
   std::vector<double> at_;                         // arclength of the events
-  results::Progress told_{};
+  results::Progress reported_{};
   double last_ = 0;  // rad/s
   bool stopped_ = false;
 };

@@ -12,7 +12,7 @@ namespace arcslip::observables {
 
 /// mode: from 1, by the frequency of the structure at rest. Amplitudes of the response: half the way between
 /// its extremes over the period, m; 0 < from < to. true_peaks: at how many amplitudes, from the lowest to the
-/// highest in equal ratios, the true peak of the frequency response is found beside that of the mode.
+/// highest in equal ratios, the true peak of the frequency response is found next to that of the mode.
 struct ModeRange {
   int mode = 1;
   double from = 0, to = 0;

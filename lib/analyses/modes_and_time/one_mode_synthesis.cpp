@@ -137,19 +137,19 @@ Synthesis OneModeSynthesis::of(const hbm::HbmEvaluator& motion, In u, double ome
 }
 
 std::optional<OneModeSynthesis::Peak> OneModeSynthesis::true_peak(const hbm::HbmEvaluator& motion, In u,
-                                                                  double zeta, const Synthesis& beside,
+                                                                  double zeta, const Synthesis& nearby,
                                                                   const std::function<bool()>& go_on) const {
-  if (!(beside.level > 0) || !std::isfinite(beside.level) || !(beside.omega > 0)) return {};
-  const double half = std::clamp(half_widths * std::abs(zeta), narrowest, widest) * beside.omega;
-  const FrequencyWindow window{beside.omega - half, beside.omega + half};
-  const auto problem = std::make_shared<const hbm::HbmProblem>(at_level(*excited_, beside.level), harmonics_,
-                                                               u.norm(), 2 * half, beside.omega);
+  if (!(nearby.level > 0) || !std::isfinite(nearby.level) || !(nearby.omega > 0)) return {};
+  const double half = std::clamp(half_widths * std::abs(zeta), narrowest, widest) * nearby.omega;
+  const FrequencyWindow window{nearby.omega - half, nearby.omega + half};
+  const auto problem = std::make_shared<const hbm::HbmProblem>(at_level(*excited_, nearby.level), harmonics_,
+                                                               u.norm(), 2 * half, nearby.omega);
   if (problem->size() != u.size()) return {};
   // The excitation a quarter period ahead of the motion.
   Vector guess = u;
-  const double turn = std::arg(work(motion, u, beside.omega)) - std::numbers::pi / 2;
+  const double turn = std::arg(work(motion, u, nearby.omega)) - std::numbers::pi / 2;
   shift(harmonics_, turn / harmonics_.excited(1), guess);
-  const Vector p = hbm::parameters_at(*problem, beside.omega);
+  const Vector p = hbm::parameters_at(*problem, nearby.omega);
   const auto start = hbm::response_near(*problem, p, guess);
   if (!start) return {};
 

@@ -1,6 +1,6 @@
 #pragma once
-// Forced responses beside a nonlinear mode, after Krack (2015). The motion x at a point of the mode, with the
-// frequency omega, takes part in the frequency response under the fundamental f of the excitation times a
+// Forced responses next to a nonlinear mode, after Krack (2015). The motion x at a point of the mode, with
+// the frequency omega, takes part in the frequency response under the fundamental f of the excitation times a
 // level L as far as the balance of its own fundamental allows:
 //
 //   (omega^2 - W^2)^2 + 4 omega^2 (zeta_v W + zeta_i omega)^2 = (L P/m)^2,      P = |x^H f|,  m = x^H M x
@@ -43,7 +43,7 @@ class OneModeSynthesis {
     double omega, amplitude;  // half the way between the extremes of the response, m
   };
   std::optional<Peak> true_peak(const hbm::HbmEvaluator& motion, continuation::In u, double zeta,
-                                const Synthesis& beside, const std::function<bool()>& go_on) const;
+                                const Synthesis& nearby, const std::function<bool()>& go_on) const;
 
  private:
   std::complex<double> work(const hbm::HbmEvaluator& motion, continuation::In u, double omega) const;

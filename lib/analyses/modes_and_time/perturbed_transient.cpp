@@ -79,19 +79,19 @@ double growth_of(const Matrix& d) {
   return std::max(std::abs(ab(0) / 2 + root), std::abs(ab(0) / 2 - root));
 }
 
-Departure departure(const Integrator& integrator, const MotionState& beside, double omega, double disturbance,
+Departure departure(const Integrator& integrator, const MotionState& nearby, double omega, double disturbance,
                     const time::SettleOptions& options, const std::function<bool(long, double)>& progress) {
   Departure found;
   time::ShootingOptions shooting;
   shooting.transients = 0;
   shooting.tolerance = std::min(1e-9, std::max(1e-3 * disturbance, 1e-12));
-  const time::ShootingResult shot = time::shoot(integrator.flow, beside, omega, shooting);
-  const Eigen::Index n = beside.x.size();
+  const time::ShootingResult shot = time::shoot(integrator.flow, nearby, omega, shooting);
+  const Eigen::Index n = nearby.x.size();
   const Vector at = stacked(shot.start, omega);
   const double size = at.norm();
-  if (!shot.converged() || (at - stacked(beside, omega)).norm() > shooting_distance * size) {
+  if (!shot.converged() || (at - stacked(nearby, omega)).norm() > shooting_distance * size) {
     found.failure = shot.converged() ? "shooting from the response came to another motion, which is " +
-                                           std::to_string((at - stacked(beside, omega)).norm() / size) +
+                                           std::to_string((at - stacked(nearby, omega)).norm() / size) +
                                            " of its size away: take more harmonics"
                                      : shot.message;
     return found;
@@ -108,7 +108,7 @@ Departure departure(const Integrator& integrator, const MotionState& beside, dou
     if (relative < 1e-3 * disturbance || relative > 10 * disturbance) break;
     course.push_back(d);
     time::PeriodMotion period = integrator.periods(state, 1, false);
-    if (!period.done()) break;  // which is told by the rest
+    if (!period.done()) break;  // which is determined by the rest
     state = std::move(period.end);
     --rest.periods;
     if (progress && !progress(k + 1, relative)) break;

@@ -1,5 +1,5 @@
 #pragma once
-// A transient that begins beside a periodic motion, slightly disturbed: does it come back, and how fast?
+// A transient that begins next to a periodic motion, slightly disturbed: does it come back, and how fast?
 //
 // The motion is that of a response of harmonic balance, made exact by shooting: X*, with the monodromy matrix
 // M. The start is X* + e |X*| w, with w along the largest multiplier, so that the disturbance d = X - X*
@@ -27,8 +27,8 @@ struct Departure {
   std::string failure;      // why there is none: shooting did not find it; empty: it did
 };
 
-/// beside: a state of the response. disturbance: e. tolerance, periods: of settle(). progress: as there.
-Departure departure(const Integrator& integrator, const time::MotionState& beside, double omega,
+/// nearby: a state of the response. disturbance: e. tolerance, periods: of settle(). progress: as there.
+Departure departure(const Integrator& integrator, const time::MotionState& nearby, double omega,
                     double disturbance, const time::SettleOptions& options,
                     const std::function<bool(long, double)>& progress = {});
 

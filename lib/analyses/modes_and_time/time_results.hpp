@@ -32,7 +32,7 @@ struct ElementMotion {
   double wear_rate = no_value;                      // m^3/s; no_value without a wear coefficient
 };
 
-/// What became of a transient that began beside a response of harmonic balance (perturbed_transient.hpp).
+/// What became of a transient that began next to a response of harmonic balance (perturbed_transient.hpp).
 struct MotionDeparture {
   double response_amplitude = 0;         // m
   int unstable = 0;                      // multipliers of the response outside the unit circle

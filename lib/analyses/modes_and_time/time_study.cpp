@@ -126,7 +126,7 @@ class InTime {
     return in_steps(equation_, start_, settings_.steps, [this] { return !go_on(progress_.points); });
   }
 
-  // Tells of the progress; false where the user stops.
+  // Reports of the progress; false where the user stops.
   bool go_on(long periods, double change = 1) {
     progress_.points = periods;
     const bool shooting =
@@ -216,17 +216,18 @@ class InTime {
     record(integrator.periods(is_known ? reached.state : integrator.start, repeats, true));
     if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
     if (!is_known) return end(Status::failed, reasons::no_periodic_motion, 0, 0, found.failure);
-    MotionDeparture& told = motion_.departure.emplace();
-    told.response_amplitude = response_->amplitude;
+    MotionDeparture& reported = motion_.departure.emplace();
+    reported.response_amplitude = response_->amplitude;
     if (const auto& stability = response_->stability) {
-      told.unstable = stability->unstable;
-      if (!stability->multipliers.empty()) told.largest_multiplier = std::abs(stability->multipliers.front());
-      told.multiplier_error = stability->error;
+      reported.unstable = stability->unstable;
+      if (!stability->multipliers.empty())
+        reported.largest_multiplier = std::abs(stability->multipliers.front());
+      reported.multiplier_error = stability->error;
     }
-    told.growth = found.growth;
-    told.distance = found.distance;
-    told.returned = found.returned;
-    told.motion_period = reached.period;
+    reported.growth = found.growth;
+    reported.distance = found.distance;
+    reported.returned = found.returned;
+    reported.motion_period = reached.period;
     if (reached.reason == time::SettleEnd::failed)
       return end(Status::failed, reached.failure, 0, 0, reached.message);
     std::ostringstream text;
@@ -276,7 +277,7 @@ class InTime {
     text << "after " << settings_.periods << " periods (the limit) the state still changes by "
          << found.change
          << " of its size per period: allow more periods, or find the periodic motion by shooting, which "
-            "tells whether "
+            "says whether "
             "it is stable";
     end(Status::stopped, reasons::period_limit, found.change, settings_.tolerance, text.str());
   }

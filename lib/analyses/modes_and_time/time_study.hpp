@@ -20,7 +20,7 @@ struct TimeSettings {
 
 /// One motion. If the event-driven integration of a piecewise linear scene ends early, as with more than a
 /// million pieces in a period, shooting switches to Newmark's method. It starts from rest, and from harmonic
-/// balance if that fails. A transient beside a response has Motion::departure. A motion that ends early is
+/// balance if that fails. A transient next to a response has Motion::departure. A motion that ends early is
 /// reported with its reason, of reasons::of_motions. Threads may share the scene.
 Motion motion_in_time(const scene::Scene& scene, const TimeSettings& settings,
                       const ProgressCallback& progress = {});

@@ -111,7 +111,7 @@ class Sweep {
     return std::move(*found);
   }
 
-  Following following() {
+  BranchOptions following() {
     return {.window = {lower_, upper_},
             .unit = frequency_unit_,
             .limits = limits_,
@@ -119,9 +119,9 @@ class Sweep {
             .go_on = [this] { return go_on(); },
             .at =
                 [this](double omega) {
-                  ++told_.points;
-                  told_.step = (omega - told_.frequency * unit_) / unit_;
-                  told_.frequency = omega / unit_;
+                  ++reported_.points;
+                  reported_.step = (omega - reported_.frequency * unit_) / unit_;
+                  reported_.frequency = omega / unit_;
                   return go_on();
                 }};
   }
@@ -131,7 +131,7 @@ class Sweep {
     const auto began = std::chrono::steady_clock::now();
     Course course = course_from(from);
     ResponseBranch& result = course.result;
-    told_ = {.frequency = from / unit_};
+    reported_ = {.frequency = from / unit_};
     if (const auto on_it = unbounded_resonance(model_, from); on_it.unbounded) {
       end_unbounded(result, on_it, from);
       far_side_ = beyond_pole_at_start(from, upper_ - lower_);
@@ -246,10 +246,10 @@ class Sweep {
       const double omega = now.p[model::frequency];
       if (course.watch.is_next_to_pole(observer.problem(), now.p, now.u)) return false;
       result.points.push_back(observer.observe(now));
-      told_.points = static_cast<long>(result.points.size());
-      told_.frequency = omega / unit_;
-      told_.step = (omega - course.last) / unit_;
-      told_.share_done = std::clamp((omega - lower_) / (upper_ - lower_), 0.0, 1.0);
+      reported_.points = static_cast<long>(result.points.size());
+      reported_.frequency = omega / unit_;
+      reported_.step = (omega - course.last) / unit_;
+      reported_.share_done = std::clamp((omega - lower_) / (upper_ - lower_), 0.0, 1.0);
       course.last = omega;
       return go_on();
     };
@@ -281,7 +281,7 @@ class Sweep {
 
   // Reports progress and checks for a stop, also between points, with the numbers of the last one.
   bool go_on() {
-    if (!stopped_ && progress_ && !progress_(told_)) stopped_ = true;
+    if (!stopped_ && progress_ && !progress_(reported_)) stopped_ = true;
     return !stopped_;
   }
 
@@ -289,7 +289,7 @@ class Sweep {
     ResponseBranch& result = course.result;
     const continuation::Branch& branch = traced.branch;
     add(branch.counts, result.solver);
-    const Unboundedness& growth = course.watch.growth();
+    const UnboundedGrowth& growth = course.watch.growth();
     if (growth.unbounded) {
       end_unbounded(result, growth, course.watch.pole());
       far_side_ = course.watch.beyond();
@@ -298,7 +298,7 @@ class Sweep {
     const bool is_through = branch.stop.reason == StopReason::boundary && branch.stop.value == upper_;
     if (is_through)
       result.doubt = doubt_of_rounding(*model_, hbm::parameters_at(*traced.problem, from), branch.counts);
-    tell_end(branch.stop, from, upper_, frequency_unit_, result);
+    set_end(branch.stop, from, upper_, frequency_unit_, result);
     if (is_through && !result.doubt.empty()) result.stop.message += "; " + result.doubt;
     if (result.stop.reason != reasons::boundary && branch.stop.reason != StopReason::start_failed &&
         !growth.message.empty())
@@ -306,7 +306,7 @@ class Sweep {
   }
 
   // The peak at infinity, at the frequency omega of the pole.
-  void end_unbounded(ResponseBranch& result, const Unboundedness& growth, double omega) const {
+  void end_unbounded(ResponseBranch& result, const UnboundedGrowth& growth, double omega) const {
     result.status = Status::complete;
     result.stop = {reasons::unbounded, growth.dissipation, growth.input,
                    growth.message + ", near " + with_unit(omega)};
@@ -324,13 +324,13 @@ class Sweep {
   scene::FrequencyUnit frequency_unit_;
   double lower_, upper_;
   bool all_;
-  Watched watched_;
+  MonitoredEvents watched_;
   BranchLimits limits_;
   Steps steps_;
   const ProgressCallback& progress_;
   std::shared_ptr<const model::Model> model_;
   BeyondPole far_side_{};
-  Progress told_{};
+  Progress reported_{};
   bool stopped_ = false;  // by the callback
 };
 

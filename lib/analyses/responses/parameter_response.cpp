@@ -87,7 +87,7 @@ class Traces {
       ends.push_back(u);
       ResponseBranch& result = branches.emplace_back();
       auto branch = trace_from(problem, u, way_.to, -way_.direction(), way_.options(), result);
-      speak_of_scene(*way_.model, p, branch);
+      add_scene_hint(*way_.model, p, branch);
       const auto& stop = branch.stop;
       result.status = stop.reason == StopReason::boundary ? Status::complete : status_of(stop.reason);
       const std::string end = stop.reason == StopReason::boundary
@@ -158,8 +158,8 @@ class Traces {
                              ResponseBranch& result) {
     auto branch = trace_from(problem, u, way_.from, way_.direction(), way_.options(), result);
     const Vector p = hbm::parameters_at(*problem, omega_);
-    speak_of_scene(*way_.model, p, branch);
-    tell_end(way_, branch.stop, doubt_of_rounding(*way_.model, p, branch.counts), result);
+    add_scene_hint(*way_.model, p, branch);
+    set_end(way_, branch.stop, doubt_of_rounding(*way_.model, p, branch.counts), result);
     return branch;
   }
 
@@ -181,7 +181,7 @@ class Traces {
     std::vector<double> at;                         // arclength of the events
     const auto record = [&](const Accepted& now, const continuation::Event* event) {
       ResponsePoint point =
-          observer->observe(now, event ? held_by(*event) : HeldBy::parameter, event != nullptr);
+          observer->observe(now, event ? held_by(*event) : PointCondition::parameter, event != nullptr);
       point.over = now.parameter;
       if (event) {
         at.push_back(now.arclength);

@@ -83,7 +83,7 @@ class ResponseSearch {
     for (const Vector& other : further_responses(found_.problem, p_, all_.u, go_on_))
       if (!stopped() && all_.add(other)) follow(other);
     for (int k = 0; k < most_deflations && !stopped(); ++k) {
-      const auto other = solution_beside(*found_.problem, p_, all_.u, go_on_);
+      const auto other = solution_nearby(*found_.problem, p_, all_.u, go_on_);
       if (!other || !all_.add(*other)) break;
       follow(*other);
     }
@@ -134,7 +134,7 @@ class ResponseSearch {
   ResponsesAt& found_;
   const Vector p_;
   Passages all_;
-  const Watched watched_{.passage = omega_};
+  const MonitoredEvents watched_{.passage = omega_};
 };
 
 // The first point of a branch that begins there, which is corrected and observed as every other one.
@@ -147,10 +147,10 @@ continuation::Branch observe_one(const std::shared_ptr<const hbm::HbmProblem>& p
   const Vector p = hbm::parameters_at(*problem, omega);
   auto branch = continuation::trace(problem, {u, p, model::frequency, 1}, options, {},
                                     [&](const continuation::Accepted& now, const continuation::Event*) {
-                                      point = observer.observe(now, HeldBy::parameter, true);
+                                      point = observer.observe(now, PointCondition::parameter, true);
                                       return false;
                                     });
-  speak_of_scene(problem->model(), p, branch);
+  add_scene_hint(problem->model(), p, branch);
   return branch;
 }
 
@@ -167,8 +167,7 @@ class Points {
   }
 
   std::vector<PointResponse> run(std::span<const PointResponse> known) {
-    const ResponsesAt found = responses_at(
-        model_, omega_, [this] { return go_on(); }, guesses(known));
+    const ResponsesAt found = responses_at(model_, omega_, [this] { return go_on(); }, guesses(known));
     if (stopped_) return {ended(Status::stopped, reasons::user, "stopped by the caller")};
     if (!found.unbounded.empty())
       return {ended(Status::failed, reasons::unbounded,

@@ -35,7 +35,7 @@ struct Path {
   double typical, scale;  // of the frequency, rad/s
   continuation::Options options;
   std::function<double(double)> share;  // of the way, at a value
-  std::function<void(const continuation::BranchStop&, ResponseBranch&)> tell_end;
+  std::function<void(const continuation::BranchStop&, ResponseBranch&)> set_end;
 };
 
 class Shooting {
@@ -49,7 +49,7 @@ class Shooting {
         result_(described(*path_.model, path_.over)) {
     result_.harmonics.clear();
     result_.symmetry = Symmetry::none;
-    told_.frequency = path_.omega / unit_;
+    reported_.frequency = path_.omega / unit_;
     path_.options.go_on = [this] { return go_on(); };
   }
 
@@ -80,13 +80,13 @@ class Shooting {
     const time::ShootingProblem unscaled(path_.model, 1, path_.typical, path_.scale, limits);
     result_.solver.unknowns = unscaled.size();
     if (const auto growth = unbounded_resonance(path_.model, path_.omega); growth.unbounded)
-      return path_.tell_end({StopReason::start_failed, path_.from, 0, growth.message}, result_);
+      return path_.set_end({StopReason::start_failed, path_.from, 0, growth.message}, result_);
     Vector p = continuation::parameter_values(unscaled);
     p[model::frequency] = path_.omega;
     const time::ShootingResult first = first_motion(p, limits);
-    if (stopped_) return path_.tell_end({StopReason::user, 1, 1, "stopped by the caller"}, result_);
+    if (stopped_) return path_.set_end({StopReason::user, 1, 1, "stopped by the caller"}, result_);
     if (!first.converged())
-      return path_.tell_end({StopReason::start_failed, path_.from, 0, first.message}, result_);
+      return path_.set_end({StopReason::start_failed, path_.from, 0, first.message}, result_);
     const double displacement = first.map.size > 0 ? first.map.size : 1;
     const auto problem = std::make_shared<const time::ShootingProblem>(path_.model, displacement,
                                                                        path_.typical, path_.scale, limits);
@@ -104,11 +104,11 @@ class Shooting {
       }
       course.emplace_back(now.arclength, point.amplitude);
       result_.points.push_back(std::move(point));
-      ++told_.points;
+      ++reported_.points;
       const double omega = now.p[model::frequency];
-      told_.step = omega / unit_ - told_.frequency;
-      told_.frequency = omega / unit_;
-      told_.share_done = path_.share(now.parameter);
+      reported_.step = omega / unit_ - reported_.frequency;
+      reported_.frequency = omega / unit_;
+      reported_.share_done = path_.share(now.parameter);
       return go_on();
     };
     const int direction = path_.from < path_.to ? 1 : -1;
@@ -117,7 +117,7 @@ class Shooting {
                             shooting_monitors(observer, stability_), record);
     if (!path_.over.empty()) drop_extrema_of_rounding(course, at, result_);
     add(branch.counts, result_.solver);
-    path_.tell_end(branch.stop, result_);
+    path_.set_end(branch.stop, result_);
   }
 
   // From the response of harmonic balance, or from rest where there is none.
@@ -139,7 +139,7 @@ class Shooting {
   }
 
   bool go_on() {
-    stopped_ = stopped_ || (progress_ && !progress_(told_));
+    stopped_ = stopped_ || (progress_ && !progress_(reported_));
     return !stopped_;
   }
 
@@ -148,7 +148,7 @@ class Shooting {
   StabilityRequest stability_;
   const ProgressCallback& progress_;
   ResponseBranch result_;
-  Progress told_{};
+  Progress reported_{};
   bool stopped_ = false;  // by the callback
 };
 
@@ -172,9 +172,9 @@ ResponseBranch shooting_response(const scene::Scene& scene, const FrequencyRange
             .scale = width,
             .options = frequency_options(window, Steps::curve, {}),
             .share = [=](double omega) { return std::clamp((omega - window.lower) / width, 0.0, 1.0); },
-            .tell_end =
+            .set_end =
                 [=](const continuation::BranchStop& stop, ResponseBranch& result) {
-                  observables::tell_end(stop, window.lower, window.upper, unit, result);
+                  observables::set_end(stop, window.lower, window.upper, unit, result);
                 }};
   std::vector<ResponseBranch> branches{Shooting(std::move(path), per_unit, range.stability, progress).run()};
   tell_missing_peak(*model, window, unit, branches);
@@ -196,8 +196,8 @@ ResponseBranch shooting_response(const scene::Scene& scene, const ParameterRange
             .scale = omega,
             .options = way.options(),
             .share = [way](double value) { return way.share(value); },
-            .tell_end = [way](const continuation::BranchStop& stop,
-                              ResponseBranch& result) { observables::tell_end(way, stop, "", result); }};
+            .set_end = [way](const continuation::BranchStop& stop,
+                             ResponseBranch& result) { observables::set_end(way, stop, "", result); }};
   return Shooting(std::move(path), per_unit, range.stability, progress).run();
 }
 

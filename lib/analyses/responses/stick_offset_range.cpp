@@ -184,7 +184,7 @@ class Search {
 
 OffsetRange offset_range(const hbm::HbmProblem& of, In u, const Vector& p) {
   OffsetRange range;
-  // Antisymmetric motions have no mean, but others beside them have.
+  // Antisymmetric motions have no mean, but others next to them have.
   elements::Harmonics all = of.harmonics();
   all.odd = false;
   const hbm::HbmProblem problem(of, all, of.sampling());

@@ -27,7 +27,7 @@ struct SplitMatrix {
 /// Mutable, with its buffers.
 class Elimination {
  public:
-  /// r coordinates q that remain, then l; `more` right hand sides of l alone beside f.
+  /// r coordinates q that remain, then l; `more` right hand sides of l alone next to f.
   Elimination(Eigen::Index r, Eigen::Index l, Eigen::Index more);
 
   /// The equation at g: Z = g(M, C, K), its right hand sides f and (0, c).

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Eigen::Index too_few = 1;     // linear coordinates
 constexpr Eigen::Index too_many = 500;  // of them: sparse factors cost less than modes, where there are any
-constexpr double proportional = 1e-12;  // entries of C beside its diagonal
+constexpr double proportional = 1e-12;  // entries of C next to its diagonal
 constexpr double indefinite = 1e-9;     // a negative eigenvalue of M or K, relative to the largest
 
 // In (q, l).

@@ -12,7 +12,7 @@ namespace {
 
 using model::LinearKind;
 
-bool equal_beside_frequency(const In& a, const Eigen::VectorXd& b) {
+bool equal_near_frequency(const In& a, const Eigen::VectorXd& b) {
   static_assert(model::frequency == 0);
   const auto* begin = a.data() + 1;
   return std::equal(begin, a.data() + a.size(), b.data() + 1);
@@ -121,7 +121,7 @@ double LinearParts::modal_value(const PartInY& part) const {
 
 void LinearParts::move_to(In p) {
   base_frequency_ = p[model::frequency] / period_;
-  bool same = has_place_ && p.size() == p_.size() && equal_beside_frequency(p, p_);
+  bool same = has_place_ && p.size() == p_.size() && equal_near_frequency(p, p_);
   has_place_ = true;
   p_ = p;
   force_changed_ = !same;

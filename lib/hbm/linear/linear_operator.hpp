@@ -79,7 +79,7 @@ struct QuadraticForms {
   Complex force;                   // x^H f
 };
 
-/// A part beside the modes: its value less the one that they have.
+/// A part next to the modes: its value less the one that they have.
 struct ChangedPart {
   const PartInY* part;
   double by;

@@ -36,7 +36,7 @@ int position(const SparsityPattern::Matrix& in, Eigen::Index i, Eigen::Index j);
 
 /// Whether factors by ComplexSparseLU cost less than those by Elimination (elimination.hpp).
 bool sparse_is_cheaper(const SparsityPattern::Matrix& pattern);
-/// The same beside LU of a dense matrix, which costs more.
+/// The same next to LU of a dense matrix, which costs more.
 bool sparse_is_cheaper_than_lu(const SparsityPattern::Matrix& pattern);
 
 }  // namespace arcslip::hbm

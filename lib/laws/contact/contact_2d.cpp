@@ -57,7 +57,7 @@ class Contact2d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
 
   bool antisymmetric() const override { return false; }
   bool has_contact() const override { return true; }
-  bool tells_contact() const override { return true; }
+  bool reports_contact() const override { return true; }
   bool has_normal_load() const override { return true; }
   double normal_load_at(Fields fields, double x_n) const override { return load(contact_law(fields), x_n); }
   Traits traits(Fields fields, int direction) const override {

@@ -171,7 +171,7 @@ class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw>, p
 
   bool antisymmetric() const override { return false; }
   bool has_contact() const override { return true; }
-  bool tells_contact() const override { return true; }
+  bool reports_contact() const override { return true; }
   bool has_normal_load() const override { return true; }
   double normal_load_at(Fields fields, double x_n) const override {
     return plane_contact_law(fields).load(x_n);

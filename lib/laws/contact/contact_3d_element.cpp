@@ -31,8 +31,8 @@ class Contact3dElement final : public Element {
         normal_(h),
         disc_(h),
         stretch_(h),
-        disc_beside_(h),
-        beside_(h),
+        disc_nearby_(h),
+        nearby_(h),
         shorter_(c_),
         derivative_(2 * c_, 3 * c_),
         u_n_(c_),
@@ -143,16 +143,16 @@ class Contact3dElement final : public Element {
     }
     const double root = std::sqrt(missing / least);
     shorten(4 * least - missing);
-    derivative_ = (root - 1) * beside_.derivative();
+    derivative_ = (root - 1) * nearby_.derivative();
     shorten(least - missing);
-    derivative_ += (2 - root) * beside_.derivative();
+    derivative_ += (2 - root) * nearby_.derivative();
   }
   void shorten(double by) const {
     shorter_ = radius_;
     shorter_[0] -= by;
-    disc_beside_.set(disc_.coefficients(0), disc_.coefficients(1), shorter_);
-    beside_.move_to(disc_beside_, normal_.closed(), false);
-    beside_.differentiate();
+    disc_nearby_.set(disc_.coefficients(0), disc_.coefficients(1), shorter_);
+    nearby_.move_to(disc_nearby_, normal_.closed(), false);
+    nearby_.differentiate();
   }
 
   void set_jacobian() {
@@ -173,8 +173,8 @@ class Contact3dElement final : public Element {
   Disc disc_;
   mutable DiscStretch stretch_;  // its derivatives are computed where they are asked for
   mutable bool differentiated_ = false;
-  mutable Disc disc_beside_;
-  mutable DiscStretch beside_;
+  mutable Disc disc_nearby_;
+  mutable DiscStretch nearby_;
   mutable Eigen::VectorXd shorter_;
   mutable Eigen::MatrixXd derivative_;  // of the stretch
   bool rigid_ = false;

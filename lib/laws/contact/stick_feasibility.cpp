@@ -144,9 +144,9 @@ StickCentre::Point StickCentre::farthest() {
     try_from(samples_[k].theta);
     const DiscPoint p = disc_.at(samples_[k].theta);
     if ((p.x - w_).norm() > reach * p.v.norm()) continue;
-    const double beside = std::clamp(p.ddh > 0 ? p.v.norm() / p.ddh : reach, 0.0, reach);
-    try_from(samples_[k].theta - beside);
-    try_from(samples_[k].theta + beside);
+    const double nearby = std::clamp(p.ddh > 0 ? p.v.norm() / p.ddh : reach, 0.0, reach);
+    try_from(samples_[k].theta - nearby);
+    try_from(samples_[k].theta + nearby);
   }
   return best;
 }

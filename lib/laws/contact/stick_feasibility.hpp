@@ -3,7 +3,7 @@
 //
 // A rest w is possible iff r(w) = max over theta of |x - w| - h is at most 0. r is convex: its minimiser is
 // the centre of the rests that are possible, and the limit from slip as r -> 0. It is decided by two opposite
-// active angles or by three, where |x - w| - h = r is largest. x and h count without their means, beside
+// active angles or by three, where |x - w| - h = r is largest. x and h count without their means, next to
 // which the motion may be very small, and in units of the motion.
 
 #include <arcslip/laws/contact/planar_slider.hpp>

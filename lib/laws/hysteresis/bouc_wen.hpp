@@ -4,7 +4,7 @@
 //   f = a k q + (1 - a) k z,   z' = q' (1 - |z/z_y|^n (s sgn(q' z) + 1 - s))
 //
 // so that |z| <= z_y. The first loading has the stiffness k at q = 0 and a k far beyond z_y. s = 1/2 unloads
-// with the stiffness k; as n grows, the law becomes a spring a k beside a friction damper of stiffness
+// with the stiffness k; as n grows, the law becomes a spring a k next to a friction damper of stiffness
 // (1 - a) k and slip limit (1 - a) k z_y. In the common form z' = A q' - beta |q'| |z|^(n-1) z - gamma q'
 // |z|^n: A = 1, beta = s/z_y^n, gamma = (1 - s)/z_y^n. k (a q^2 + (1 - a) z^2)/2 is stored, and the rest of
 // the work dissipated, which is never negative for s >= 1/2.

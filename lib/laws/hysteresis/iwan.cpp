@@ -89,7 +89,7 @@ file::KeyGroup<IwanOptions> table_key() {
                                      ? reading.keys.require("table", wanted, reading.faults)
                                      : reading.keys.find("table");
     if (place.node != nullptr && options.distribution != Distribution::table) {
-      reading.faults.add(place.pointer, "found a table beside another \"distribution\" than \"table\"");
+      reading.faults.add(place.pointer, "found a table next to another \"distribution\" than \"table\"");
       return;
     }
     const file::Node::List* rows = file::read_list(place, wanted, reading.faults);

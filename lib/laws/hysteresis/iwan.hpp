@@ -13,7 +13,7 @@
 // In time the sliders are the memory, as those of jenkins.hpp: those of the table, or as many as the option
 // "sliders" says, of which each has the stiffness and the slip force of a range of slip limits: the error
 // falls as sliders^-2. FrictionState: the stick share is that of the stiffness of the sliders that stick,
-// averaged over the period; slip of single sliders is not told.
+// averaged over the period; slip of single sliders is not reported.
 
 #include <arcslip/laws/law.hpp>
 

@@ -3,7 +3,7 @@
 //
 //   rho(phi) = R [H(phi) - H(phi - phi_max)] phi^chi + S delta(phi - phi_max)
 //
-// told by the stiffness K_T of small motions, the force F_S of macroslip, chi and beta = S/(R
+// reported by the stiffness K_T of small motions, the force F_S of macroslip, chi and beta = S/(R
 // phi_max^(chi+1)/(chi+1)). With t = s/phi_max the force of a first loading and its slope are
 //
 //   F = K_T phi_max (t - t^(chi+2)/((1 + beta)(chi + 2))),   F' = K_T (1 - t^(chi+1)/(1 + beta)),   t <= 1

@@ -46,7 +46,7 @@ class Jenkins final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
 
   bool antisymmetric() const override { return true; }
   bool has_contact() const override { return true; }
-  bool tells_contact() const override { return true; }
+  bool reports_contact() const override { return true; }
   Traits traits(Fields fields, int) const override {
     return {.stiffness = fields[jenkins_field::stiffness],
             .stiffness_field = jenkins_field::stiffness,

@@ -43,7 +43,7 @@ std::unique_ptr<Element> make_jenkins(const Harmonics& harmonics, Offset offset 
 ///
 /// From full stick, theta_a is where w is least and theta_r where it is largest: h = k_d (max w - min w)/2 -
 /// p. Of an element that sticks, s = s_a is the corner where another reversal becomes the highest or the
-/// lowest, and the mean of its force is told by that.
+/// lowest, and the mean of its force is determined by that.
 ///
 /// With a static offset that is so where a bound carries the slider; and where one begins to, from w = 0,
 ///

@@ -13,7 +13,7 @@
 //   dF/dp_a = A_a,       dF/dL = kappa sum_aj p_a o_aj l_j
 //
 // kappa = 1/pi (mean row 1/(2 pi)). The motion of the ends of the intervals does not enter, since f is
-// continuous there. Each line has integrals of its own, so that a soft one loses no digits beside a stiff
+// continuous there. Each line has integrals of its own, so that a soft one loses no digits next to a stiff
 // one. Where q just touches a corner, an interval of length s appears or vanishes: J is continuous and varies
 // with s, the square root of what lies beyond.
 
@@ -46,7 +46,7 @@ class PiecewiseLinearLaw final : public Law {
   PiecewiseLinearLaw(PiecewiseLinearShape positive, PiecewiseLinearShape negative);
 
   bool antisymmetric() const override { return antisymmetric_; }
-  bool tells_contact() const override { return shapes_.front().contact; }
+  bool reports_contact() const override { return shapes_.front().contact; }
   Traits traits(Fields fields, int direction) const override;
   double stiffness(Fields fields, int direction, double reach) const override;
 

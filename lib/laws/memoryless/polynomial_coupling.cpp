@@ -207,7 +207,7 @@ void read_potential(const Reading& reading, PolynomialCouplingOptions& options) 
   options.coupling = std::make_shared<const PolynomialCoupling>(std::move(all));
 }
 
-// The powers: the writer puts the values beside them with the fields.
+// The powers: the writer puts the values next to them with the fields.
 void write_potential(const PolynomialCouplingOptions& options, const scene::Scene&,
                      scene::file::Node::Object& to) {
   using scene::file::Node;

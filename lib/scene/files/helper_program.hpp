@@ -11,7 +11,7 @@ struct OwnProgram {
   std::vector<std::string> folders;  // where it was looked for, but for those of PATH
 };
 
-/// Takes the path that a variable of the environment gives; where that is not set, looks beside the running
+/// Takes the path that a variable of the environment gives; where that is not set, looks next to the running
 /// program, in ../libexec/arcslip and ../bin from there, in the same places from the shared library
 /// (and from the folder above, as of lib/x86_64-linux-gnu), and in the absolute folders of PATH.
 OwnProgram find_own_program(const std::string& name, const char* variable);

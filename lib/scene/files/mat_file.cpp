@@ -66,8 +66,8 @@ std::optional<std::vector<std::size_t>> numbers(std::string_view text) {
 class MatFileReader {
  public:
   MatFileReader(const std::string& path, std::string_view text, const std::string& name,
-                const std::string& told, const StopRequest& stop)
-      : path_(path), text_(text), name_(name), told_(told), stop_(stop) {}
+                const std::string& reported, const StopRequest& stop)
+      : path_(path), text_(text), name_(name), reported_(reported), stop_(stop) {}
 
   SparseMatrix read() {
     check_file();
@@ -81,9 +81,9 @@ class MatFileReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& cause) const { throw MatrixError(told_ + ": " + cause); }
+  [[noreturn]] void fail(const std::string& cause) const { throw MatrixError(reported_ + ": " + cause); }
   void listen() const {
-    if (is_asked(stop_)) throw Interrupted("interrupted while " + told_ + " was read");
+    if (is_asked(stop_)) throw Interrupted("interrupted while " + reported_ + " was read");
   }
 
   // matio takes whatever it does not know for a file of version 4, goes by the number of the version alone,
@@ -156,7 +156,7 @@ class MatFileReader {
   [[noreturn]] void refuse(ChildOutput& answer) const {
     using enum ChildOutput::End;
     listen();
-    if (answer.end() == stopped) throw Interrupted("interrupted while " + told_ + " was read");
+    if (answer.end() == stopped) throw Interrupted("interrupted while " + reported_ + " was read");
     if (answer.end() == out_of_time)
       fail("found a file that is not read within " + std::to_string(longest_time(text_.size()).count()) +
            " s; it may be damaged");
@@ -194,7 +194,7 @@ class MatFileReader {
     expect(!cause.empty() &&
                std::all_of(cause.begin(), cause.end(), [](char c) { return c >= ' ' && c <= '~'; }),
            answer);
-    if (!variable.empty()) told_ += ", variable " + file::quoted(variable);
+    if (!variable.empty()) reported_ += ", variable " + file::quoted(variable);
     fail(cause);
   }
 
@@ -213,7 +213,7 @@ class MatFileReader {
     if (!name_.empty())
       fail("found no variable " + file::quoted(name_) + ", must be " + (names.size() > 1 ? "one of " : "") +
            listed(names) + file::hint(name_, names));
-    fail("found the variables " + listed(names) + R"(, must be told which: {"file": ..., "variable": ...})");
+    fail("found the variables " + listed(names) + R"(, must say which: {"file": ..., "variable": ...})");
   }
 
   SparseMatrix matrix(ChildOutput& answer, const std::vector<std::size_t>& sizes) {
@@ -222,7 +222,7 @@ class MatFileReader {
     expect(!variable.empty() && mat_protocol::has_size(text_.size(), rows, columns) &&
                mat_protocol::has_entries(text_.size(), count),
            answer);
-    told_ += ", variable " + file::quoted(variable);
+    reported_ += ", variable " + file::quoted(variable);
     SparseMatrix A{static_cast<int>(rows), static_cast<int>(columns), {}, {}, {}};
     A.starts = array<int>(answer, columns + 1);
     check_starts(A, static_cast<int>(count));
@@ -289,7 +289,7 @@ class MatFileReader {
   const std::string& path_;
   const std::string_view text_;
   const std::string& name_;
-  std::string told_;
+  std::string reported_;
   const StopRequest& stop_;
 };
 

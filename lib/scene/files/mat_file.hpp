@@ -3,7 +3,7 @@
 // variable must be a real matrix of double precision, sparse or full.
 //
 // The program arcslip-mat (mat/) reads them. The variable ARCSLIP_MAT of the environment gives its path; else
-// it is looked for beside the running program, in ../libexec/arcslip and ../bin from there, in the same
+// it is looked for next to the running program, in ../libexec/arcslip and ../bin from there, in the same
 // places from the shared library, and in PATH. What it sends is checked, and where it dies nothing else does.
 
 #include <arcslip/control/stop_request.hpp>

@@ -45,7 +45,7 @@ MatrixFile read_matrix_file(const Location& place, const std::string& wanted, co
   if (!found.variable.empty() && !of_matlab) {
     faults.add(variable.pointer, "found the variable " + shown(found.variable) + " of " +
                                      shown(found.file.path) +
-                                     ", must stand beside a .mat file: others hold one matrix");
+                                     ", must stand next to a .mat file: others hold one matrix");
     return found;
   }
   try {

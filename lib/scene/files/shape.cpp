@@ -93,7 +93,7 @@ file::KeyGroup<Shape> copy_of_matrices() {
             shape.copy = file::read_integer(place, 1, file::largest_copies, reading.faults).value_or(0);
             if (place.node != nullptr && !reading.keys.has("shape") && !reading.keys.has("imaginary_shape"))
               reading.faults.add(place.pointer,
-                                 "found a copy of matrices without \"shape\", must stand beside it: on "
+                                 "found a copy of matrices without \"shape\", must stand next to it: on "
                                  "which of the copies the shape acts");
           },
           [](const Shape& shape, const Scene&, file::Node::Object& to) {
@@ -110,7 +110,7 @@ file::KeysOf<Shape> shape_keys() {
   keys.check([](const file::Reading& reading, Shape& shape) {
     if (shape.imaginary.is_given() && !reading.keys.has("shape"))
       reading.faults.add(reading.keys.find("imaginary_shape").pointer,
-                         "found an imaginary part alone, must stand beside \"shape\", the real part");
+                         "found an imaginary part alone, must stand next to \"shape\", the real part");
   });
   return keys;
 }

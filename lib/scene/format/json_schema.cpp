@@ -337,9 +337,9 @@ Node study_of(const StudyType& type) {
     properties.push_back({key.name, described_key(key)});
     if (key.required) {
       required.push_back(key.name);
-    } else if (const std::vector<std::string> beside = keys_beside(key.type); !beside.empty()) {
-      needs.push_back({key.name, node(beside)});
-      for (const std::string& each : beside) needs.push_back({each, node(std::vector{key.name})});
+    } else if (const std::vector<std::string> nearby = keys_next_to(key.type); !nearby.empty()) {
+      needs.push_back({key.name, node(nearby)});
+      for (const std::string& each : nearby) needs.push_back({each, node(std::vector{key.name})});
     }
   }
   properties.push_back(

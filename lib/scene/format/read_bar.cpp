@@ -29,7 +29,7 @@ void read_section(const Keys& keys, Bar& bar, Faults& faults) {
     for (const std::string_view other : {"area", "inertia"})
       if (const Location place = keys.find(other); place.node != nullptr)
         faults.add(place.pointer, "found the key " + shown(other) +
-                                      R"( beside "width" and "height", which stand in its place)");
+                                      R"( next to "width" and "height", which stand in its place)");
     const double width = number(keys, "width", "m", faults), height = number(keys, "height", "m", faults);
     bar.area = width * height;
     bar.inertia = bar.bends ? width * height * height * height / 12 : 0;

@@ -28,17 +28,18 @@ class Places {
  public:
   template <class Text>
   void add(const Text& text) {
-    if (++count_ <= most_named) told_ += (count_ > 1 ? "; " : "") + text();
+    if (++count_ <= most_named) reported_ += (count_ > 1 ? "; " : "") + text();
   }
   bool any() const { return count_ > 0; }
-  std::string told() const {
-    return count_ <= most_named ? told_ : told_ + "; and " + std::to_string(count_ - most_named) + " more";
+  std::string reported() const {
+    return count_ <= most_named ? reported_
+                                : reported_ + "; and " + std::to_string(count_ - most_named) + " more";
   }
 
  private:
   static constexpr std::size_t most_named = 3;
   std::size_t count_ = 0;
-  std::string told_;
+  std::string reported_;
 };
 
 // Where all rows cannot be degrees of freedom.
@@ -113,7 +114,7 @@ class Files {
       else if (flag)
         faults_.add(at.pointer, "found " + shown(*key) + " again, must be given once");
       else if (!stiffness && !keys_.has("damping"))
-        faults_.add(at.pointer, "found \"damping\" without the key \"damping\", must be beside that matrix");
+        faults_.add(at.pointer, "found \"damping\" without the key \"damping\", must be next to that matrix");
       else
         flag = true;
     }
@@ -178,8 +179,8 @@ class Files {
         });
       }
     if (negative.any())
-      fault(negative.told() + ", must be positive semidefinite: no negative entry on the diagonal");
-    if (asymmetric.any()) fault(asymmetric.told() + ", must be symmetric");
+      fault(negative.reported() + ", must be positive semidefinite: no negative entry on the diagonal");
+    if (asymmetric.any()) fault(asymmetric.reported() + ", must be symmetric");
   }
 
   template <class Fault>
@@ -209,7 +210,7 @@ class Files {
       }
     }
     if (wrong.any())
-      fault(wrong.told() +
+      fault(wrong.reported() +
             ", must be skew-symmetric: entries across the diagonal of opposite signs, and 0 on it");
   }
 
@@ -232,7 +233,7 @@ class Files {
         });
       }
     if (without.any())
-      faults_.add(child(keys_.pointer(), key), "found the " + key + " matrix with " + without.told() +
+      faults_.add(child(keys_.pointer(), key), "found the " + key + " matrix with " + without.reported() +
                                                    ", must have mass in both rows that it couples");
   }
 
@@ -262,7 +263,7 @@ class Files {
       if (m == 0 && k == 0) empty.add([&] { return std::to_string(i + 1); });
     }
     if (empty.any())
-      faults_.add(keys_.pointer(), "found neither mass nor stiffness in row " + empty.told() +
+      faults_.add(keys_.pointer(), "found neither mass nor stiffness in row " + empty.reported() +
                                        ", must have one of them on the diagonal in each row");
     if (!mass) faults_.add(child(keys_.pointer(), "mass"), "found no mass, must have some on its diagonal");
   }
@@ -292,7 +293,7 @@ std::optional<Matrices> read_matrices(const Keys& structure, FrequencyUnit unit,
     if (!structure.has(key)) continue;
     if (!first.empty())
       faults.add(structure.find(key).pointer,
-                 "found the key " + shown(key) + " beside " + shown(first) +
+                 "found the key " + shown(key) + " next to " + shown(first) +
                      ", must be one of them: a structure has one set of matrices");
     else
       first = key;
@@ -306,7 +307,7 @@ std::optional<Matrices> read_matrices(const Keys& structure, FrequencyUnit unit,
   }
   if (place.node == nullptr) {
     if (const Location names = structure.find("names"); names.node != nullptr)
-      faults.add(names.pointer, "found names of rows without \"matrices\", must be beside them");
+      faults.add(names.pointer, "found names of rows without \"matrices\", must be next to them");
     return {};
   }
   const std::size_t before = faults.count();
@@ -326,12 +327,13 @@ std::optional<Matrices> read_matrices(const Keys& structure, FrequencyUnit unit,
   if (matrices && matrices->copies > 1 && structure.has("cyclic"))
     faults.add(child(place.pointer, "copies"),
                "found " + std::to_string(matrices->copies) +
-                   " beside \"cyclic\", must be left out: one sector has one copy, and with \"full\": true "
+                   " next to \"cyclic\", must be left out: one sector has one copy, and with \"full\": true "
                    "there are as many as sectors");
   if (matrices && matrices->copies == 1 && matrices->faces_file.text && !structure.has("cyclic"))
-    faults.add(child(place.pointer, "faces"),
-               "found the faces of a sector without \"cyclic\", must be beside it, or beside \"copies\" that "
-               "make a ring");
+    faults.add(
+        child(place.pointer, "faces"),
+        "found the faces of a sector without \"cyclic\", must be next to it, or next to \"copies\" that "
+        "make a ring");
   if (faults.count() > before) dofs.complete = false;
   return matrices;
 }

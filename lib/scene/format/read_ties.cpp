@@ -24,7 +24,7 @@ std::vector<std::string> read_members(const Location& place, const Names& names,
     const auto [first, is_new] = used.emplace(*member, item.pointer);
     if (!is_new) {
       faults.add(item.pointer, "found " + shown(*member) + " again, which is also at " +
-                                   faults.told(first->second) + "; a field must be tied only once");
+                                   faults.reported(first->second) + "; a field must be tied only once");
     } else if (!members.empty() && field->unit != unit) {
       faults.add(item.pointer, "found " + shown(*member) + " (" + std::string(field->unit) + ") tied to " +
                                    shown(members.front()) + " (" + std::string(unit) +

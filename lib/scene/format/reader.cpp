@@ -61,7 +61,7 @@ Harmonics read_harmonics(const Location& place, Faults& faults) {
 constexpr std::string_view wanted_response =
     "an object with one of \"at\", \"between\", \"direction\", or a list of such objects with names";
 
-// The keys of a response beside its name.
+// The keys of a response next to its name.
 void read_places(const Keys& keys, const Dofs& dofs, Response& response, Faults& faults) {
   response.frame = read_choice(keys.find("frame"), frames, response.frame, faults);
   const Location places = keys.find("max_of");

@@ -253,7 +253,7 @@ std::optional<Cyclic> read_cyclic(const Location& at, Faults& faults) {
   if (!keys.is_object()) return {};
   if (const Location mistuning = keys.find("mistuning"); mistuning.node != nullptr)
     faults.add(mistuning.pointer,
-               "found \"mistuning\", which belongs to a full ring; must have \"full\": true beside it");
+               "found \"mistuning\", which belongs to a full ring; must have \"full\": true next to it");
   read_full(keys.find("full"), faults);
   return read_numbers(keys, faults);
 }
@@ -261,18 +261,18 @@ std::optional<Cyclic> read_cyclic(const Location& at, Faults& faults) {
 Ring write_out_ring(Node& scene, const FileSource& source, Origins& origins, Faults& faults) {
   Node* structure = find(&scene, "structure");
   Node* cyclic = find(structure, "cyclic");
-  Faults told_later;
-  if (!read_full({find(cyclic, "full"), {}}, told_later)) return {};
+  Faults reported_later;
+  if (!read_full({find(cyclic, "full"), {}}, reported_later)) return {};
   const Keys keys({cyclic, cyclic_place}, {"sectors", "engine_order", "full", "mistuning"}, faults);
   const auto of = read_numbers(keys, faults);
   for (const char* key : {"beam", "rod"})
     if (find(structure, key) != nullptr)
       faults.add(child(cyclic_place, "full"),
-                 "found true beside " + quoted(key) +
+                 "found true next to " + quoted(key) +
                      ", must be false, or the sector must be of masses and springs, or of matrices");
   if (find(&scene, "patches") != nullptr)
     faults.add(child(cyclic_place, "full"),
-               "found true beside \"patches\", must be false, or the contacts must be elements");
+               "found true next to \"patches\", must be false, or the contacts must be elements");
   refuse_copies(scene, faults);
   if (!of) return {};
   mistune(scene, of->sectors, faults);

@@ -56,12 +56,12 @@ Node replaced(const Location& section, const Field& key, const Structure& struct
   for (std::size_t i = 0; parts != nullptr && i < parts->size(); ++i) {
     auto* part = std::get_if<Node::Object>(&(*parts)[i].value);
     if (part == nullptr) continue;
-    Faults told_later;
-    const Keys keys({&(*parts)[i], child(section.pointer, i)}, {}, told_later);
+    Faults reported_later;
+    const Keys keys({&(*parts)[i], child(section.pointer, i)}, {}, reported_later);
     const Location place = keys.find(key.name);
     if (place.node == nullptr) continue;
     const auto number = read_number(place, key, faults);
-    const auto on = read_direction(keys, structure.dofs, told_later);
+    const auto on = read_direction(keys, structure.dofs, reported_later);
     std::string objection;
     double result = 0;
     if (keys.has("value"))

@@ -27,7 +27,7 @@ bool Names::add(const std::string& name, const std::string& pointer, Faults& fau
   const auto [first, is_new] = pointers_.emplace(name, pointer);
   if (!is_new) {
     faults.add(pointer, "found the name " + shown(name) + " again, which is also at " +
-                            faults.told(first->second) + "; parts and ties must have different names");
+                            faults.reported(first->second) + "; parts and ties must have different names");
   }
   return is_new;
 }

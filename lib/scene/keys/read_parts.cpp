@@ -32,7 +32,7 @@ bool is_excitation(const PartType* type) {
 }
 
 // The keys of a part. An element whose type is not known may have any.
-std::vector<std::string> keys_of(const Part& part, bool has_type, bool wears) {
+std::vector<std::string> keys_of(const Part& part, bool has_type, bool has_wear) {
   if (part.type == nullptr) return {};
   std::vector<std::string> keys = {"name"};
   if (has_type) keys.emplace_back("type");
@@ -46,7 +46,7 @@ std::vector<std::string> keys_of(const Part& part, bool has_type, bool wears) {
     if (field.place.empty()) keys.emplace_back(field.name);
   if (part.type == &spring_type()) keys.emplace_back(frequency_key);  // with the value that it gives
   if (part.type == &damper_type()) keys.emplace_back(damping_ratio_key);
-  if (wears) keys.emplace_back(wear_coefficient.name);
+  if (has_wear) keys.emplace_back(wear_coefficient.name);
   return keys;
 }
 
@@ -97,12 +97,12 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
   const Location wear = part.type != nullptr && place.node->get<Node::Object>() != nullptr
                             ? at_pointer(place, "/wear_coefficient")
                             : Location{};
-  const bool wears = section_type == nullptr && wear.node != nullptr &&
-                     (faults.count() > before || part.type->wears(part.options));
+  const bool has_wear = section_type == nullptr && wear.node != nullptr &&
+                        (faults.count() > before || part.type->has_wear(part.options));
   const Elsewhere elsewhere = [&part](std::string_view key) {
     return key == "engine_order" && is_excitation(part.type) ? "which belongs to repeated excitations" : "";
   };
-  const Keys keys(place, keys_of(part, !types.empty(), wears), faults, elsewhere);
+  const Keys keys(place, keys_of(part, !types.empty(), has_wear), faults, elsewhere);
   if (!keys.is_object()) {
     names.set_incomplete();
     return part;
@@ -131,7 +131,7 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
                                                  : keys.require(field.name, allowed_text(field), faults);
     part.values.push_back(read_number(value, field, faults).value_or(field.default_value.value_or(0)));
   }
-  if (wears) part.wear_coefficient = read_number(wear, wear_coefficient, faults).value_or(0);
+  if (has_wear) part.wear_coefficient = read_number(wear, wear_coefficient, faults).value_or(0);
   return part;
 }
 

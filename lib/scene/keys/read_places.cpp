@@ -129,7 +129,7 @@ void read_dofs(const Location& place, Dofs& dofs, Faults& faults) {
       faults.add(item.pointer,
                  "found " + shown(*name) + " again, which is also " +
                      (earlier < named ? "a row of the matrices"
-                                      : "at " + faults.told(child(place.pointer, earlier - named))) +
+                                      : "at " + faults.reported(child(place.pointer, earlier - named))) +
                      "; each degree of freedom must stand only once");
     } else {
       dofs.index.emplace(*name, static_cast<int>(dofs.names.size()));

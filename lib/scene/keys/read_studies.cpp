@@ -46,8 +46,8 @@ std::string kinds_with(std::string_view key, const Catalogue& catalogue) {
 // Null after a fault.
 const StudyType* read_kind(const Location& study, const Catalogue& catalogue, Faults& faults) {
   const std::vector<std::string> known = names_of(catalogue);
-  Faults told_later;
-  const Location place = Keys(study, {}, told_later).require("kind", "one of " + listed(known), faults);
+  Faults reported_later;
+  const Location place = Keys(study, {}, reported_later).require("kind", "one of " + listed(known), faults);
   const auto name = read_string(place, "one of " + listed(known), faults);
   const StudyType* type = name ? catalogue.study(*name) : nullptr;
   if (name && type == nullptr) {

@@ -44,7 +44,7 @@ class OpenFile {
   OpenFile& operator=(const OpenFile&) = delete;
   ~OpenFile() { ::close(descriptor_); }
 
-  // Appends what is there. False at the end of the file, or after an error, which errno tells.
+  // Appends what is there. False at the end of the file, or after an error, which errno reports.
   bool read_some(std::string& text) const {
     pollfd place{descriptor_, POLLIN, 0};
     if (::poll(&place, 1, poll_milliseconds) <= 0)  // a pipe may have no writer yet

@@ -6,7 +6,7 @@
 
 namespace arcslip::scene {
 
-std::vector<std::string> keys_beside(KeyType type) {
+std::vector<std::string> keys_next_to(KeyType type) {
   if (type == KeyType::followed) return {"from", "to"};
   if (type == KeyType::parameters) return {"bounds"};
   return {};
@@ -97,7 +97,7 @@ KeyGroup<RangeOver> range_over() {
             to.push_back({"over", node(range.over)});
             write_range(range.from, range.to, to);
           },
-          [](const RangeOver& range, std::vector<Taken>& all) {
+          [](const RangeOver& range, std::vector<ParameterUse>& all) {
             if (!range.over.empty()) all.push_back({range.over, "which the study is \"over\""});
           }};
 }
@@ -155,9 +155,7 @@ KeyGroup<double> number(const Field& field, double otherwise, std::string help) 
           [=](const Reading& reading, double& value) {
             value = read_number(reading.keys.find(name), field, reading.faults).value_or(value);
           },
-          [=](const double& value, const Scene&, Node::Object& to) {
-            to.push_back({name, node(value)});
-          }};
+          [=](const double& value, const Scene&, Node::Object& to) { to.push_back({name, node(value)}); }};
 }
 
 KeyGroup<int> whole(const std::string& name, int otherwise, int lower, int upper, std::string help) {
@@ -168,9 +166,7 @@ KeyGroup<int> whole(const std::string& name, int otherwise, int lower, int upper
           [=](const Reading& reading, int& value) {
             value = read_integer(reading.keys.find(name), lower, upper, reading.faults).value_or(value);
           },
-          [=](const int& value, const Scene&, Node::Object& to) {
-            to.push_back({name, node(value)});
-          }};
+          [=](const int& value, const Scene&, Node::Object& to) { to.push_back({name, node(value)}); }};
 }
 
 KeyGroup<std::string> text(const std::string& name, const std::string& what, std::string otherwise,
@@ -185,17 +181,15 @@ KeyGroup<std::string> text(const std::string& name, const std::string& what, std
 }
 
 KeyGroup<NamedFile> named_file(const std::string& name, const std::string& what, std::string help) {
-  return {{{name, KeyType::text, "", what, "", true, std::move(help)}},
-          [=](const Reading& reading, NamedFile& value) {
-            value =
-                read_file_of(reading.keys.require(name, what, reading.faults), what, reading).value_or(value);
-          },
-          [=](const NamedFile& value, const Scene&, Node::Object& to) {
-            to.push_back({name, node(value.path)});
-          },
-          {},
-          {},
-          [](NamedFile& value, std::vector<NamedFile*>& files) { files.push_back(&value); }};
+  return {
+      {{name, KeyType::text, "", what, "", true, std::move(help)}},
+      [=](const Reading& reading, NamedFile& value) {
+        value = read_file_of(reading.keys.require(name, what, reading.faults), what, reading).value_or(value);
+      },
+      [=](const NamedFile& value, const Scene&, Node::Object& to) { to.push_back({name, node(value.path)}); },
+      {},
+      {},
+      [](NamedFile& value, std::vector<NamedFile*>& files) { files.push_back(&value); }};
 }
 
 Key word_key(const std::string& name, std::vector<std::string> words, std::string_view otherwise,
@@ -225,9 +219,7 @@ KeyGroup<bool> flag(const std::string& name, bool otherwise, std::string help) {
             else
               add_wrong_type(place, allowed, reading.faults);
           },
-          [=](const bool& value, const Scene&, Node::Object& to) {
-            to.push_back({name, Node{value}});
-          }};
+          [=](const bool& value, const Scene&, Node::Object& to) { to.push_back({name, Node{value}}); }};
 }
 
 }  // namespace file

@@ -38,9 +38,10 @@ struct KeyGroup {
   std::vector<Key> keys;
   std::function<void(const Reading&, Settings&)> read;
   std::function<void(const Settings&, const Scene&, Node::Object&)> write;
-  std::function<void(const Settings&, std::vector<Taken>&)> taken{};  // parameters with values in these keys
-  std::function<void(std::string_view, Settings&)> drop{};            // a parameter from lists of values
-  std::function<void(Settings&, std::vector<NamedFile*>&)> files{};   // that are named here
+  std::function<void(const Settings&, std::vector<ParameterUse>&)>
+      taken{};                                                       // parameters with values in these keys
+  std::function<void(std::string_view, Settings&)> drop{};           // a parameter from lists of values
+  std::function<void(Settings&, std::vector<NamedFile*>&)> files{};  // that are named here
 };
 
 /// A part of the settings as a group of its own: settings within settings, or a single value.
@@ -53,7 +54,7 @@ KeyGroup<S> within(Part S::*part, KeyGroup<Part> group) {
         write(s.*part, scene, to);
       }};
   if (group.taken)
-    all.taken = [part, of = std::move(group.taken)](const S& s, std::vector<Taken>& taken) {
+    all.taken = [part, of = std::move(group.taken)](const S& s, std::vector<ParameterUse>& taken) {
       of(s.*part, taken);
     };
   if (group.drop)
@@ -112,7 +113,7 @@ KeyGroup<S> range_over(std::string S::*over, double S::*from, double S::*to) {
           [=, write = std::move(range.write)](const S& s, const Scene& scene, Node::Object& to_file) {
             write({s.*over, s.*from, s.*to}, scene, to_file);
           },
-          [=, taken = std::move(range.taken)](const S& s, std::vector<Taken>& all) {
+          [=, taken = std::move(range.taken)](const S& s, std::vector<ParameterUse>& all) {
             taken({s.*over, s.*from, s.*to}, all);
           }};
 }
@@ -215,8 +216,8 @@ class KeysOf {
   void write(const S& settings, const Scene& scene, Node::Object& to) const {
     for (const auto& group : groups_) group.write(settings, scene, to);
   }
-  std::vector<Taken> taken(const S& settings) const {
-    std::vector<Taken> all;
+  std::vector<ParameterUse> taken(const S& settings) const {
+    std::vector<ParameterUse> all;
     for (const auto& group : groups_)
       if (group.taken) group.taken(settings, all);
     return all;
@@ -270,7 +271,7 @@ class KeyedStudy : public StudyType {
   std::vector<NamedFile*> files(Settings& settings) const override {
     return settings.empty() ? std::vector<NamedFile*>() : keys_.files(settings.as<S>());
   }
-  std::vector<Taken> taken(const Settings& settings) const override {
+  std::vector<ParameterUse> taken(const Settings& settings) const override {
     return keys_.taken(settings.empty() ? S{} : settings.as<S>());
   }
   void drop(std::string_view parameter, Settings& settings) const override {

@@ -137,10 +137,10 @@ Field bounds_of(const std::string& parameter, const std::string& pointer, const 
   return known ? common(fields) : any_number;
 }
 
-bool is_taken(const std::string& parameter, const std::string& pointer, const std::vector<Taken>& taken,
-              Faults& faults) {
+bool is_taken(const std::string& parameter, const std::string& pointer,
+              const std::vector<ParameterUse>& taken, Faults& faults) {
   const auto found = std::find_if(taken.begin(), taken.end(),
-                                  [&](const Taken& each) { return each.parameter == parameter; });
+                                  [&](const ParameterUse& each) { return each.parameter == parameter; });
   if (found != taken.end())
     faults.add(pointer, "found " + shown(parameter) + ", " + found->how + "; must be another parameter");
   return found != taken.end();
@@ -166,8 +166,8 @@ Field read_parameter(const Location& place, const Parameters& all, std::string& 
   return bounds_of(*over, place.pointer, all, faults);
 }
 
-ValueLists read_value_lists(const Location& place, const Parameters& all, const std::vector<Taken>& taken,
-                            Faults& faults) {
+ValueLists read_value_lists(const Location& place, const Parameters& all,
+                            const std::vector<ParameterUse>& taken, Faults& faults) {
   ValueLists lists;
   for (const Member* member : members(place, faults)) {
     const Location item{&member->value, child(place.pointer, member->key)};
@@ -183,12 +183,12 @@ namespace {
 // The values of one row, in the order of the first.
 class ParameterRows {
  public:
-  ParameterRows(const Parameters& all, const std::vector<Taken>& taken, Faults& faults)
+  ParameterRows(const Parameters& all, const std::vector<ParameterUse>& taken, Faults& faults)
       : all_(all), taken_(taken), faults_(faults) {}
 
   void read_first(const Location& place) {
-    Faults told_below;
-    for (const Member* member : members(place, told_below)) {
+    Faults reported_below;
+    for (const Member* member : members(place, reported_below)) {
       const std::string pointer = child(place.pointer, member->key);
       const Field bounds = bounds_of(member->key, pointer, all_, faults_);
       is_taken(member->key, pointer, taken_, faults_);
@@ -206,8 +206,8 @@ class ParameterRows {
     if (!Keys(place, {}, faults_).is_object()) return;
     std::vector<double> values(lists_.size(), std::numeric_limits<double>::quiet_NaN());
     std::vector<bool> given(lists_.size());
-    Faults told_above;
-    for (const Member* member : members(place, told_above)) {
+    Faults reported_above;
+    for (const Member* member : members(place, reported_above)) {
       const Location item{&member->value, child(place.pointer, member->key)};
       const auto k = index_.find(member->key);
       if (k == index_.end()) {
@@ -230,7 +230,7 @@ class ParameterRows {
 
  private:
   const Parameters& all_;
-  const std::vector<Taken>& taken_;
+  const std::vector<ParameterUse>& taken_;
   Faults& faults_;
   ValueLists lists_;
   std::vector<Field> bounds_;
@@ -239,7 +239,7 @@ class ParameterRows {
 
 }  // namespace
 
-void read_for_each(const Location& place, const Parameters& all, const std::vector<Taken>& taken,
+void read_for_each(const Location& place, const Parameters& all, const std::vector<ParameterUse>& taken,
                    Study& study, Faults& faults) {
   const Node::List* list = place.node != nullptr ? place.node->get<Node::List>() : nullptr;
   if (list == nullptr) {

@@ -38,11 +38,11 @@ std::pair<double, double> read_pair(const Location& place, const std::string& wa
 
 /// Lists of values by parameter name, each within the bounds of its fields. A parameter that is already used
 /// is a fault.
-ValueLists read_value_lists(const Location& place, const Parameters& all, const std::vector<Taken>& taken,
-                            Faults& faults);
+ValueLists read_value_lists(const Location& place, const Parameters& all,
+                            const std::vector<ParameterUse>& taken, Faults& faults);
 
 /// "for_each": such lists, or a list of rows, {"k.value": 1, "m.value": 2}, all with the same parameters.
-void read_for_each(const Location& place, const Parameters& all, const std::vector<Taken>& taken,
+void read_for_each(const Location& place, const Parameters& all, const std::vector<ParameterUse>& taken,
                    Study& study, Faults& faults);
 
 /// "labels" of the axes over parameters, and over the quantities of label_names.
@@ -50,8 +50,8 @@ std::vector<std::pair<std::string, std::string>> read_labels(const Location& pla
                                                              Faults& faults);
 
 /// Reports a fault and returns true if the study sets this parameter elsewhere.
-bool is_taken(const std::string& parameter, const std::string& pointer, const std::vector<Taken>& taken,
-              Faults& faults);
+bool is_taken(const std::string& parameter, const std::string& pointer,
+              const std::vector<ParameterUse>& taken, Faults& faults);
 
 /// The common bounds of all fields set by a parameter; unbounded after a fault.
 Field bounds_of(const std::string& parameter, const std::string& pointer, const Parameters& all,

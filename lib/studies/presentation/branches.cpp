@@ -135,7 +135,8 @@ results::Object leaves(const scene::Scene& scene, const observables::Leaves& at)
           {"frequency", in_scene_unit(scene, at.omega), std::string(scene::unit_name(scene.frequency_unit))}};
 }
 
-// What is told beside the table: what its motions are, where they are unstable, and what was not followed.
+// What is reported next to the table: what its motions are, where they are unstable, and what was not
+// followed.
 std::string branch_remark(const scene::Scene& scene, const ResponseBranch& branch) {
   std::string text;
   const auto add = [&](const std::string& more) {

@@ -42,7 +42,7 @@ struct EquationRates {
 /// That of p[k] or of its parameter, if it is larger; 1 where both are 0.
 double size_of_parameter(const model::Model& model, const continuation::Vector& p, int k);
 
-/// By parameter k at p. Nothing where an element has other modes beside p than at p, as at a normal load of
+/// By parameter k at p. Nothing where an element has other modes next to p than at p, as at a normal load of
 /// 0. Throws NotInTime.
 std::optional<EquationRates> equation_rates(const model::Model& model, const continuation::Vector& p, int k);
 

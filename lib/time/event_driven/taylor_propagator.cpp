@@ -58,8 +58,8 @@ Matrix bound(const LinearMotion::Part& part, double sign) {
   for (const Matrix& stiffness : part.stiffnesses)
     for (Eigen::Index i = 0; i < d; ++i) {
       const Matrix T = 0.5 * (stiffness + stiffness.transpose());
-      const double beside = T.row(i).cwiseAbs().sum() - std::abs(T(i, i));
-      most[i] = std::max(most[i], sign * T(i, i) + beside);
+      const double nearby = T.row(i).cwiseAbs().sum() - std::abs(T(i, i));
+      most[i] = std::max(most[i], sign * T(i, i) + nearby);
     }
   return sign * most.asDiagonal();
 }

@@ -20,7 +20,7 @@ Matrix null_space(const Matrix& A) {
   Vector scale = S.diagonal();
   for (double& s : scale) s = s > 0 ? 1 / std::sqrt(s) : 1;
   const auto modes = continuation::symmetric_modes(scale.asDiagonal() * S * scale.asDiagonal());
-  if (modes.values.size() == 0) return Matrix(S.rows(), 0);  // overflow: the first step tells
+  if (modes.values.size() == 0) return Matrix(S.rows(), 0);  // overflow: the first step reports
   Eigen::Index count = 0;
   while (count < S.rows() && modes.values[count] <= negligible_inertia * static_cast<double>(S.rows()))
     ++count;

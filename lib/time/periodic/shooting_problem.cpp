@@ -16,7 +16,7 @@ using continuation::Out;
 
 namespace {
 
-constexpr double just_beside = 1e-9;  // of the size of a parameter
+constexpr double just_nearby = 1e-9;  // of the size of a parameter
 
 }  // namespace
 
@@ -103,8 +103,8 @@ const ShootingEvaluator::ByParameter& ShootingEvaluator::by(int k) const {
   const continuation::Parameter& parameter = problem_.parameters()[static_cast<std::size_t>(k)];
   auto rates = equation_rates(problem_.model(), p, k);
   if (!rates) {
-    // Where an element has other modes beside p than at p, as at a normal load of 0, those beside it.
-    p[k] += just_beside * size_of_parameter(problem_.model(), p, k);
+    // Where an element has other modes next to p than at p, as at a normal load of 0, those next to it.
+    p[k] += just_nearby * size_of_parameter(problem_.model(), p, k);
     rates = equation_rates(problem_.model(), p, k);
   }
   if (!rates) {

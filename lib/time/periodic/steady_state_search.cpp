@@ -117,7 +117,7 @@ class Settling {
     return 0;
   }
 
-  // A period that the motion may have, beside 1.
+  // A period that the motion may have, next to 1.
   int likely() const {
     int best = 1;
     for (int m = 2; m <= known(); ++m)

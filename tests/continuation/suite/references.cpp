@@ -105,7 +105,7 @@ TEST_CASE("the homotopies of Boggs and Broyden end at the solutions known") {
     CHECK(end.parameter == 1);
     CHECK((end.u - Vector{{0.0, 1.0}}).norm() < 1e-10);
   }
-  // a root of G, solved for directly to 30 digits; beside it lies (1/2, pi)
+  // a root of G, solved for directly to 30 digits; next to it lies (1/2, pi)
   const auto end = trace(named("broyden")).points.back();
   CHECK(end.parameter == 1);
   CHECK((end.u - Vector{{0.2994486924909, 2.836927770459}}).norm() < 1e-8);

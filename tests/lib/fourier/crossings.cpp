@@ -34,7 +34,7 @@ int sign_changes(const Harmonics& h, const Eigen::VectorXd& u, double level) {
 
 }  // namespace
 
-TEST_CASE("a cosine passes a level where its arc cosine tells, up to where it just touches") {
+TEST_CASE("a cosine passes a level where its arc cosine says, up to where it just touches") {
   for (const int order : {1, 2, 9, 40})
     for (const double level : {0.0, 0.3, -0.7, 0.99, 1 - 1e-4, 1 - 1e-8, 1 - 1e-12, 1.0, 1 + 1e-12, 1 + 1e-4,
                                -1 + 1e-12, -1 - 1e-12, -3.0}) {
@@ -112,7 +112,8 @@ TEST_CASE("a motion at rest, or one that is not finite, passes no level") {
   CHECK(crossings.find(u, std::numeric_limits<double>::infinity(), reversals).empty());
 }
 
-TEST_CASE("a contact tells the largest and smallest load of a motion with many reversals, open and closed") {
+TEST_CASE(
+    "a contact reports the largest and smallest load of a motion with many reversals, open and closed") {
   const Harmonics h{9, false};
   Eigen::VectorXd u = Eigen::VectorXd::Zero(h.size());
   u[h.cosine_index(1)] = 1;

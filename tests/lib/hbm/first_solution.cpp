@@ -51,7 +51,7 @@ TEST_CASE("a response is found where the branch from rest turns back through zer
   }
 }
 
-TEST_CASE("a response is found of a contact that lifts off without damping, beside stiff and soft springs") {
+TEST_CASE("a response is found of a contact that lifts off without damping, next to stiff and soft springs") {
   // Newton's method from rest cycles, and branches over the excitation and the forces of the contact pass
   // undamped resonances.
   check_found(scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {

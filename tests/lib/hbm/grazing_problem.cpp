@@ -122,7 +122,7 @@ TEST_CASE("a motion without the reversals of a corner has no excess there") {
   CHECK_FALSE(hbm::corner_excess(problem, corner, stuck, p));
 }
 
-TEST_CASE("beside a corner of a motion of half the period its image begins to slip with it") {
+TEST_CASE("next to a corner of a motion of half the period its image begins to slip with it") {
   const auto model = std::make_shared<const model::Model>(model::build(scenes::chain(4, true)));
   const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
   const auto& harmonics = problem.harmonics();

@@ -1,4 +1,4 @@
-// One sector of a ring beside the waves of the ring in closed form.
+// One sector of a ring next to the waves of the ring in closed form.
 #include "catch.hpp"
 
 #include "lib/hbm/complex_amplitude.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 // What every law promises of its corners: the equations of a guard have the derivatives of their differences,
-// and its angles are found again from beside.
+// and its angles are found again from next to.
 
 #include "lib/laws/every_law.hpp"
 
@@ -40,7 +40,7 @@ inline void check_equations(elements::Corners& corners, const elements::Corner& 
   check([&](const VectorXd& t) { return values(list(t), u, fields); }, vector(corner.angles), at.by_angle);
 }
 
-/// The angles of a corner from angles beside them.
+/// The angles of a corner from angles next to them.
 inline void check_polish(elements::Corners& corners, const elements::Corner& corner, const VectorXd& u,
                          const std::vector<double>& fields) {
   elements::Corner near = corner;

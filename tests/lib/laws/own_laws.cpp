@@ -215,7 +215,7 @@ TEST_CASE("two sliders in one element are two elements with one slider each, in 
   }
 }
 
-TEST_CASE("options decide which fields a law has, and are read, written and told in the schema") {
+TEST_CASE("options decide which fields a law has, and are read, written and reported in the schema") {
   const std::string text = R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
       "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
@@ -260,7 +260,7 @@ TEST_CASE("options decide which fields a law has, and are read, written and told
   CHECK(scene::json_schema(catalogue()).find("\"second\"") != std::string::npos);
 }
 
-TEST_CASE("directions that are lacking or not as they must be are told where they should stand") {
+TEST_CASE("directions that are lacking or not as they must be are reported where they should stand") {
   std::string text = plane(circular, R"({"at": "x"})");
   const auto with = [&](const std::string& second) {
     std::string copy = text;

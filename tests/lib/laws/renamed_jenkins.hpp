@@ -72,7 +72,7 @@ class RenamedJenkins final : public elements::PlainLaw {
 
   bool antisymmetric() const override { return law().antisymmetric(); }
   bool has_contact() const override { return law().has_contact(); }
-  bool tells_contact() const override { return law().tells_contact(); }
+  bool reports_contact() const override { return law().reports_contact(); }
   elements::Traits traits(Fields fields, int direction) const override {
     elements::Traits traits = law().traits(in_order(fields), direction);
     traits.stiffness_field = 2;

@@ -127,7 +127,7 @@ TEST_CASE("a reduced structure that floats, and a beam, are written and read aga
   }
 }
 
-TEST_CASE("what has no reduced files is told") {
+TEST_CASE("what has no reduced files is reported") {
   const Folder source = rotor_files(true);
   const auto refused = [&](const scene::Scene& s) -> std::string {
     try {

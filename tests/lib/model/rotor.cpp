@@ -1,4 +1,4 @@
-// A rotor with every kind of matrix beside dense solutions of the whole equation, and motions in time.
+// A rotor with every kind of matrix next to dense solutions of the whole equation, and motions in time.
 #include "catch.hpp"
 #include "contains.hpp"
 
@@ -32,9 +32,9 @@ struct Everything {
     std::srand(7);
     const int n = 8;
     const auto random = [&] { return Eigen::MatrixXd(Eigen::MatrixXd::Random(n, n)); };
-    const auto definite = [&](double diagonal, double beside) {
+    const auto definite = [&](double diagonal, double nearby) {
       const Eigen::MatrixXd R = random();
-      Eigen::MatrixXd A = beside * (R + R.transpose());
+      Eigen::MatrixXd A = nearby * (R + R.transpose());
       for (int i = 0; i < n; ++i) A(i, i) = diagonal * (1 + 0.1 * i);
       return A;
     };

@@ -1,4 +1,4 @@
-// Gyroscopic, circulatory and other unsymmetric matrices beside closed forms of Jeffcott's and of Stodola's
+// Gyroscopic, circulatory and other unsymmetric matrices next to closed forms of Jeffcott's and of Stodola's
 // and Green's rotors.
 #include "catch.hpp"
 

@@ -35,7 +35,7 @@ inline Eigen::MatrixXd planes(const Eigen::MatrixXcd& factors) {
   return A;
 }
 
-// Without parts beyond the matrices. keys: of "matrices"; more: beside them.
+// Without parts beyond the matrices. keys: of "matrices"; more: next to them.
 inline std::string scene_of(const std::string& keys, const std::string& more, const std::string& force,
                             const std::string& elements = "", int order = 1) {
   return R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {"matrices":

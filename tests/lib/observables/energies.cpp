@@ -191,7 +191,7 @@ TEST_CASE("at both maxima friction takes half of it all, pi f0^2/(4 c w)") {
   }
 }
 
-TEST_CASE("the least friction energy lies beside the optimum: at the optimum it is more, by 1e-6") {
+TEST_CASE("the least friction energy lies next to the optimum: at the optimum it is more, by 1e-6") {
   const auto optimum = peak_at(reference::exact("optima")[1]["normal_load"]);
   const double least = reference::exact("energy_extrema")[1]["energy_friction"];
   CHECK(optimum.energy_friction > least);

@@ -146,7 +146,7 @@ TEST_CASE("without damping the contact's out-of-phase fundamental is f0 at reson
       const auto peak = peak_of(s);
       CAPTURE(order, load, peak.phase - pi / 2);
       // f0 sin(phase) at any frequency. At the peak of one harmonic the phase is pi/2; that of max |x| of
-      // several lies up to 1e-4 rad beside it.
+      // several lies up to 1e-4 rad next to it.
       const double out = peak.elements[0].fundamental.out_of_phase;
       CHECK(std::abs(out - std::sin(peak.phase)) < 1e-12);
       CHECK(std::abs(out - 1) < (order == 1 ? 1e-13 : 1e-8));
@@ -253,7 +253,7 @@ Greatest greatest(const ResponseBranch& curve, Quantity&& of) {
 
 }  // namespace
 
-TEST_CASE("the out-of-phase force per displacement is greatest near half stick, beside the least peak") {
+TEST_CASE("the out-of-phase force per displacement is greatest near half stick, next to the least peak") {
   for (double damping : {0.0, 0.134}) {
     const auto curve = peaks_over_load(scenes::paper(55), damping > 0 ? 0.01 : 2, 500, damping);
     REQUIRE(curve.status == observables::Status::complete);

@@ -36,7 +36,7 @@ inline std::optional<double> amplitude(const std::shared_ptr<const model::Model>
   return observables::Amplitude(wide).of(*at, *found, x).amplitude;
 }
 
-/// Of points beside more harmonics: how many errors are compared, and how many of them are above twice and
+/// Of points next to more harmonics: how many errors are compared, and how many of them are above twice and
 /// above ten times the estimate.
 struct Compared {
   int points = 0, flagged = 0, above_twice = 0, above_ten_times = 0;

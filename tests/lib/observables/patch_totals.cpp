@@ -5,7 +5,7 @@
 
 #include "lib/hbm/scenes.hpp"
 #include "lib/scene/folder.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
 #include <arcslip/analyses/responses/responses_at.hpp>
@@ -62,13 +62,14 @@ double power(const observables::ElementResponse& element, double omega) {
 TEST_CASE("a patch responds as its elements would without it") {
   const scene::Scene s = plate(9);
   for (const double omega : {85.0, 95.0, 110.0}) {
-    const auto one = beside_exact::balanced(s, omega), other = beside_exact::balanced(by_elements(s), omega);
+    const auto one = compared_with_exact::balanced(s, omega),
+               other = compared_with_exact::balanced(by_elements(s), omega);
     CHECK((one.u - other.u).norm() < 1e-10 * one.u.norm());
   }
 }
 
 TEST_CASE("a response has derivatives by the parameters of a patch") {
-  const auto pair = beside_exact::balanced(plate(5), 95);
+  const auto pair = compared_with_exact::balanced(plate(5), 95);
   const auto at = pair.problem->hbm_evaluator();
   const auto& model = pair.problem->model();
   const auto residual = [&](const Vector& p) {
@@ -132,7 +133,7 @@ TEST_CASE("the totals of a patch are those of its elements") {
   CHECK(total.normal_load_min <= least * (1 + 1e-13));
 }
 
-TEST_CASE("a march in time tells what harmonics tell of contacts") {
+TEST_CASE("a march in time says what harmonics tell of contacts") {
   const scene::Scene s = plate(55);
   const auto found = observables::point_responses(s, {.frequency = 95});
   REQUIRE(found.size() == 1);

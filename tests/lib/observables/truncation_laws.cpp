@@ -1,5 +1,5 @@
 // The truncation estimates of random structures with each law of force, against the error that a much higher
-// order tells, and, of laws that are piecewise linear, against the exact motion in time.
+// order reports, and, of laws that are piecewise linear, against the exact motion in time.
 
 #include "catch.hpp"
 #include "random.hpp"
@@ -8,7 +8,7 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/observables/in_more_harmonics.hpp"
 #include "lib/observables/truncation.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 
 #include <iostream>
 #include <string>
@@ -168,7 +168,7 @@ const std::vector<Law>& laws() {
   return all;
 }
 
-/// Estimates beside errors.
+/// Estimates next to errors.
 struct Counts {
   int estimates = 0, low = 0, far_too_low = 0;  // not flagged; below half, and below a tenth of the error
 
@@ -193,7 +193,7 @@ void compare_peaks(const observables::ResponseBranch& branch, const observables:
   }
 }
 
-/// Some points of a branch beside the exact motion in time, found from theirs by shooting.
+/// Some points of a branch next to the exact motion in time, found from theirs by shooting.
 void compare_in_time(const std::shared_ptr<const model::Model>& model,
                      const observables::ResponseBranch& branch, Counts& to) {
   for (std::size_t k = 5; k < branch.points.size(); k += branch.points.size() / 4 + 1) {

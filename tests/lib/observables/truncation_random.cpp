@@ -1,4 +1,4 @@
-// The truncation estimate against the error that a much higher order tells, on random hardening structures.
+// The truncation estimate against the error that a much higher order reports, on random hardening structures.
 
 #include "catch.hpp"
 

@@ -197,7 +197,7 @@ TEST_CASE("a gnuplot that fails, is killed or stops half way leaves a message an
   }
 }
 
-TEST_CASE("what a failing gnuplot says is told") {
+TEST_CASE("what a failing gnuplot says is reported") {
   const TemporaryFolder folder;
   const TemporaryFolder programs;
   write_program(programs / "gnuplot", "echo no such terminal >&2; exit 3");

@@ -30,7 +30,7 @@ TEST_CASE("JSON has a list for each kind of results, and the format of several")
   CHECK(json["title"] == "A \"title\"\n");
   CHECK(json["things"].size() == 1);
   CHECK(json["others"].size() == 1);
-  CHECK(json["best"] == Json{{"x", 1.5}});  // beside the list, since there is one
+  CHECK(json["best"] == Json{{"x", 1.5}});  // next to the list, since there is one
   CHECK(json["stop"]["reason"] == "end");
 }
 

@@ -42,7 +42,7 @@ inline Results results() {
        .noun = "thing",
        .tables = {{"rows", table().columns(), {"elements"}}, {"marks", table().columns(), {"elements"}}},
        .set = {{{"load"}, Type::number, "N"}},
-       .beside = {"best", "stop"}});
+       .nearby = {"best", "stop"}});
   all.schemas.push_back({.format = "others-1",
                          .list = "others",
                          .noun = "other",

@@ -112,12 +112,13 @@ TEST_CASE("what commands a terminal is escaped in a table") {
   CHECK(printed(results).find("\\u001b[31m") != std::string::npos);
 }
 
-TEST_CASE("what ended early, and what is complete but doubtful, is told by its number and what it sets") {
+TEST_CASE(
+    "what ended early, and what is complete but doubtful, is determined by its number and what it sets") {
   Results results = made_up::results();
   results.results[1].head.set = {{"load", 3.0, "N"}, {"share", 0.5}};
   results.results[1].end.stop = {{"message", "it broke"}};
   results.results[0].end.doubt = "hardly so";
-  results.results[1].end.doubt = "and doubtful";  // but the failure is told already
+  results.results[1].end.doubt = "and doubtful";  // but the failure is reported already
   Remarks remarks;
   replay(results, remarks);
   CHECK(remarks.early_ends == std::vector<std::string>{"other 2 (load = 3 N, share = 0.5) failed: it broke"});

@@ -117,7 +117,7 @@ TEST_CASE("a spring by a natural frequency needs a mass that is not in matrices"
                  "found the degree of freedom \"p\" of a structure from matrices, must be a \"value\""));
 }
 
-TEST_CASE("what is wrong with a beam is told") {
+TEST_CASE("what is wrong with a beam is reported") {
   const std::string ends = R"("clamped", "free")", points = R"(, "points": {"p": 1})";
   CHECK(bar_fault(bar("beam", 4, ends, points)) == "none");
   CHECK(contains(bar_fault(bar("beam", 0, ends, points)), "/structure/beam/elements: found 0"));
@@ -135,10 +135,10 @@ TEST_CASE("what is wrong with a beam is told") {
   CHECK(contains(bar_fault(bar("beam", 4, ends, R"(, "points": {"ground": 1})")),
                  "reserved for the fixed frame"));
   CHECK(contains(bar_fault(bar("beam", 4, ends, R"(, "points": {"p": 1}, "width": 1)")),
-                 "beside \"width\" and \"height\", which stand in its place"));
+                 "next to \"width\" and \"height\", which stand in its place"));
   CHECK(contains(bar_fault(bar("beam", 400, ends, points)), "800 rows without \"highest_frequency\""));
   CHECK(contains(bar_fault(bar("beam", 4, ends, points) + ", " + bar("rod", 4, ends, points)),
-                 "/structure/rod: found the key \"rod\" beside \"beam\", must be one of them"));
+                 "/structure/rod: found the key \"rod\" next to \"beam\", must be one of them"));
   std::string huge = bar("beam", 4, ends, points);
   huge.replace(huge.find("\"young\": 40"), 11, "\"young\": 1e308");
   huge.replace(huge.find("\"inertia\": 0.25"), 15, "\"inertia\": 1e9");

@@ -1,4 +1,4 @@
-// for_each as rows of values, beside the product of lists; labels of axes.
+// for_each as rows of values, next to the product of lists; labels of axes.
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"

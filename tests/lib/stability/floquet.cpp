@@ -1,4 +1,4 @@
-// Floquet multipliers along Fourier series: closed forms, and beside the exact march in time.
+// Floquet multipliers along Fourier series: closed forms, and next to the exact march in time.
 // ARCSLIP_SCENES is the number of random structures of each kind; by default 8.
 #include "catch.hpp"
 
@@ -9,7 +9,7 @@
 #include "lib/stability/cosine.hpp"
 #include "lib/stability/multiplier_distance.hpp"
 #include "lib/time/equation/systems.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 #include "lib/time/periodic/random_contacts.hpp"
 
 #include <arcslip/laws/memoryless/polynomial_spring.hpp>
@@ -37,7 +37,7 @@ std::uint64_t scene_count() {
   return 8;
 }
 
-std::vector<Complex> exact_multipliers(const beside_exact::Pair& pair) {
+std::vector<Complex> exact_multipliers(const compared_with_exact::Pair& pair) {
   EventDriven integrator(pair.equation);
   const auto motion = periodic_motion(integrator, state_of(*pair.problem, pair.u, pair.p));
   REQUIRE(motion.converged());
@@ -78,7 +78,7 @@ std::vector<ElementCourse> exact_courses(EventDriven& integrator, const MotionSt
   return courses;
 }
 
-std::vector<Complex> given_the_orbit(const beside_exact::Pair& pair, int order) {
+std::vector<Complex> given_the_orbit(const compared_with_exact::Pair& pair, int order) {
   EventDriven integrator(pair.equation);
   const auto motion = periodic_motion(integrator, state_of(*pair.problem, pair.u, pair.p));
   REQUIRE(motion.converged());
@@ -106,7 +106,7 @@ TEST_CASE("the paper's oscillator has its multipliers, and their error falls wit
   } cases[] = {{3, 2e-3}, {15, 1.5e-5}, {55, 2e-6}, {201, 1e-7}};
   for (const auto& [order, error] : cases) {
     CAPTURE(order);
-    const auto pair = beside_exact::balanced(scenes::paper(order), 20);
+    const auto pair = compared_with_exact::balanced(scenes::paper(order), 20);
     CHECK(pair.problem->harmonics().odd);
     const auto found = along_harmonics::multipliers(pair);
     REQUIRE(found.size() == 3);
@@ -120,7 +120,7 @@ TEST_CASE("a stuck slider has no multiplier, and one that always slips has 0: cl
   const double m = 1.24, c = 0.134, hertz = 20;
   for (const auto& [load, stiffness] : {std::pair{100.0, 17890.0 + 3500}, {1e-9, 17890.0}}) {
     CAPTURE(load);
-    const auto pair = beside_exact::balanced(scenes::paper(7, load), hertz);
+    const auto pair = compared_with_exact::balanced(scenes::paper(7, load), hertz);
     const auto found = along_harmonics::multipliers(pair);
     const double decay = std::exp(-c / (2 * m) / hertz);
     const double rate = std::sqrt(stiffness / m - std::pow(c / (2 * m), 2)) / hertz;
@@ -206,7 +206,8 @@ TEST_CASE("given the same orbit the multipliers are those of the exact march") {
       const double at = middle(s);
       CAPTURE(seed, static_cast<int>(kind));
       for (const bool stops : {false, true}) {
-        const auto pair = beside_exact::balanced(stops ? random_contacts::with_stops(s, seed, at) : s, at);
+        const auto pair =
+            compared_with_exact::balanced(stops ? random_contacts::with_stops(s, seed, at) : s, at);
         const double error = difference(given_the_orbit(pair, 50), exact_multipliers(pair));
         CHECK(error < 1e-8);
         worst = std::max(worst, error);
@@ -223,7 +224,7 @@ TEST_CASE("given the same orbit with contacts that open, so are they, to the err
     s.harmonics.order = 21;
     const double at = middle(s);
     CAPTURE(seed);
-    const auto pair = beside_exact::balanced(random_contacts::with_contacts(s, seed, at), at);
+    const auto pair = compared_with_exact::balanced(random_contacts::with_contacts(s, seed, at), at);
     CHECK(difference(given_the_orbit(pair, 800), exact_multipliers(pair)) < 1e-6);
     EventDriven integrator(pair.equation);
     const auto motion = periodic_motion(integrator, state_of(*pair.problem, pair.u, pair.p));
@@ -244,7 +245,7 @@ TEST_CASE("along harmonic balance the error of the multipliers falls at least li
       double errors[2];
       for (int i = 0; i < 2; ++i) {
         s.harmonics.order = i == 0 ? 21 : 61;
-        const auto pair = beside_exact::balanced(s, at);
+        const auto pair = compared_with_exact::balanced(s, at);
         errors[i] = difference(along_harmonics::multipliers(pair), exact_multipliers(pair));
       }
       CHECK(errors[1] < 1e-3);
@@ -264,15 +265,16 @@ TEST_CASE("modes found by the guards give the multipliers of those that the elem
     s.harmonics.order = 9;
     const double at = middle(s);
     CAPTURE(seed);
-    const auto pair = beside_exact::balanced(seed % 2 == 0 ? random_contacts::with_contacts(s, seed, at)
-                                                           : random_contacts::with_stops(s, seed, at),
-                                             at);
+    const auto pair =
+        compared_with_exact::balanced(seed % 2 == 0 ? random_contacts::with_contacts(s, seed, at)
+                                                    : random_contacts::with_stops(s, seed, at),
+                                      at);
     Floquet floquet(pair.equation);
-    const auto told = along_harmonics::multipliers(pair, floquet);
+    const auto reported = along_harmonics::multipliers(pair, floquet);
     auto courses = along_harmonics::courses(pair);
     for (auto& course : courses) course.contact.clear();
     REQUIRE(floquet.compute(pair.equation.omega, pair.problem->harmonics(), courses));
-    CHECK(difference(told, floquet.multipliers()) < 1e-9);
+    CHECK(difference(reported, floquet.multipliers()) < 1e-9);
   }
 }
 

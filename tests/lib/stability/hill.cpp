@@ -1,4 +1,4 @@
-// Hill's method beside closed forms and beside the multipliers in time.
+// Hill's method next to closed forms and next to the multipliers in time.
 #include "catch.hpp"
 
 #include "lib/hbm/random_scenes.hpp"
@@ -7,7 +7,7 @@
 #include "lib/stability/cosine.hpp"
 #include "lib/stability/multiplier_distance.hpp"
 #include "lib/time/equation/systems.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 
 #include <arcslip/laws/memoryless/gap_spring.hpp>
 #include <arcslip/laws/memoryless/polynomial_spring.hpp>
@@ -31,7 +31,7 @@ struct Both {
 };
 
 Both multipliers_both_ways(const scene::Scene& s, double frequency) {
-  const auto pair = beside_exact::balanced(s, frequency);
+  const auto pair = compared_with_exact::balanced(s, frequency);
   const auto courses = along_harmonics::courses(pair);
   Floquet floquet(pair.equation);
   Hill hill(pair.equation);
@@ -112,7 +112,7 @@ TEST_CASE("Hill's method agrees with the multipliers in time along smooth motion
 }
 
 TEST_CASE("Hill's method is refused with the reason where a slider has a memory") {
-  const auto pair = beside_exact::balanced(scenes::paper(3), 20);
+  const auto pair = compared_with_exact::balanced(scenes::paper(3), 20);
   CHECK_THROWS_WITH(Hill(pair.equation),
                     "Hill's method is for laws without memory: that of \"damper\" makes its "
                     "spectrum fragment");

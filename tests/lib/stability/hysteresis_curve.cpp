@@ -1,4 +1,4 @@
-// The curve of a hysteretic law between two reversals beside closed forms, and polynomials at Gauss nodes.
+// The curve of a hysteretic law between two reversals next to closed forms, and polynomials at Gauss nodes.
 #include "catch.hpp"
 
 #include <arcslip/laws/hysteresis/bouc_wen.hpp>

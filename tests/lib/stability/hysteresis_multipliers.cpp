@@ -8,7 +8,7 @@
 #include "lib/stability/multiplier_distance.hpp"
 #include "lib/stability/rate_march.hpp"
 #include "lib/time/equation/systems.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 
 #include <arcslip/laws/hysteresis/bouc_wen.hpp>
 #include <arcslip/laws/memoryless/cubic_spring.hpp>
@@ -276,7 +276,7 @@ TEST_CASE("along harmonic balance the multipliers come to those of the march at 
   double first = 0;
   for (const int order : {5, 15, 45, 91}) {
     s.harmonics.order = order;
-    const auto pair = beside_exact::balanced(s, structure.omega);
+    const auto pair = compared_with_exact::balanced(s, structure.omega);
     const double error = difference(along_harmonics::multipliers(pair), exact);
     UNSCOPED_INFO(order << " harmonics: " << error);
     if (order == 5) first = error;

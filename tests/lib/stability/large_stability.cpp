@@ -72,7 +72,7 @@ TEST_CASE("a large structure has the multipliers of its low modes, with an error
 }
 
 TEST_CASE("structures that are too large for multipliers say so") {
-  const std::string told =
+  const std::string reported =
       "without its stability: the structure has 101 degrees of freedom, and at most 100 are supported by "
       "Hill's "
       "method, with unsymmetric matrices or with laws that are not piecewise linear";
@@ -83,12 +83,12 @@ TEST_CASE("structures that are too large for multipliers say so") {
       long_chain(101, R"({"name": "s", "type": "cubic_spring", "at": "x100", "stiffness": 1})"), settings);
   REQUIRE(cubic.front().status == observables::Status::complete);
   CHECK_FALSE(cubic.front().point.stability);
-  CHECK(cubic.front().doubt == told);
+  CHECK(cubic.front().doubt == reported);
   settings.stability.by_hill = true;
   const auto by_hill = observables::point_responses(
       long_chain(101, R"({"name": "s", "type": "gap_spring", "at": "x100", "stiffness": 1, "gap": 0.3})"),
       settings);
   REQUIRE(by_hill.front().status == observables::Status::complete);
   CHECK_FALSE(by_hill.front().point.stability);
-  CHECK(by_hill.front().doubt == told);
+  CHECK(by_hill.front().doubt == reported);
 }

@@ -1,5 +1,5 @@
 // The multipliers along harmonic balance with 15 harmonics, at random points of the branches of random
-// structures with friction, stops, contacts, cubic springs and hysteresis, beside those of the exact motion
+// structures with friction, stops, contacts, cubic springs and hysteresis, next to those of the exact motion
 // there: by shooting or, with cubic springs or hysteresis, of a motion of 121 harmonics. ARCSLIP_SCENES is
 // the number of structures, 10 points each; by default 10.
 #include "catch.hpp"
@@ -128,7 +128,7 @@ struct Count {
 
 // A motion next to the point, from that of 15 harmonics. Where its multipliers are others, that may be one on
 // the other side of a fold: then from the motion of 61 harmonics.
-std::optional<Exact> exact_beside(Kind kind, const hbm::HbmProblem& problem,
+std::optional<Exact> exact_nearby(Kind kind, const hbm::HbmProblem& problem,
                                   const observables::ResponsePoint& point) {
   const auto p = hbm::parameters_at(problem, point.omega);
   const auto u = refined::solution_of(point);
@@ -163,14 +163,14 @@ TEST_CASE("multipliers with 15 harmonics are as near to the exact ones as their 
     }
     for (int i = 0; i < points_each && !known.empty(); ++i) {
       const auto& point = *random.of(i % 2 == 1 && !unstable.empty() ? unstable : known);
-      const auto exact = exact_beside(kind, problem, point);
+      const auto exact = exact_nearby(kind, problem, point);
       const auto& found = *point.stability;
       for (const Kind sum : {kind, kinds}) counts[sum].add(found, exact);
       if (!exact || (Count::is_within(found, *exact) && !Count::is_wrong(found, *exact))) continue;
       beyond << "seed " << seed << ", " << point.omega << " rad/s: error "
-             << difference(found.multipliers, exact->multipliers) << " beside " << found.error << ", modulus "
-             << std::abs(found.multipliers.front()) << " beside " << std::abs(exact->multipliers.front())
-             << (point.truncation_flagged ? ", flagged" : "")
+             << difference(found.multipliers, exact->multipliers) << " next to " << found.error
+             << ", modulus " << std::abs(found.multipliers.front()) << " next to "
+             << std::abs(exact->multipliers.front()) << (point.truncation_flagged ? ", flagged" : "")
              << (Count::is_wrong(found, *exact) ? ", WRONG\n" : "\n");
     }
   }
@@ -254,12 +254,12 @@ TEST_CASE("with hysteresis, too, multipliers are as near to the exact ones as th
     REQUIRE(!known.empty());
     for (int i = 0; i < 4; ++i) {
       const auto& point = *random.of(known);
-      const auto exact = exact_beside(cubic, problem, point);
+      const auto exact = exact_nearby(cubic, problem, point);
       const auto& found = *point.stability;
       count.add(found, exact);
       if (!exact || (Count::is_within(found, *exact) && !Count::is_wrong(found, *exact))) continue;
       beyond << "seed " << seed << ", " << point.omega << " rad/s: error "
-             << difference(found.multipliers, exact->multipliers) << " beside " << found.error << "\n";
+             << difference(found.multipliers, exact->multipliers) << " next to " << found.error << "\n";
     }
   }
   INFO(beyond.str());

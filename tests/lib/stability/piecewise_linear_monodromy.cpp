@@ -6,7 +6,7 @@
 #include "lib/stability/along_harmonics.hpp"
 #include "lib/stability/multiplier_distance.hpp"
 #include "lib/time/equation/systems.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/laws/memoryless/gap_spring.hpp>
@@ -118,7 +118,7 @@ TEST_CASE("a slider behind a spring without a mass between them is one slider on
       "excitation": [{"name": "force", "at": "x", "cosine": 1}], "response": {"at": "x"}})");
     scene::set(s, "damper.stiffness", stiffness);
     s.harmonics.order = order;
-    return beside_exact::balanced(s, 20);
+    return compared_with_exact::balanced(s, 20);
   };
   double errors[2];
   for (int i = 0; i < 2; ++i) {
@@ -160,7 +160,7 @@ TEST_CASE(
   for (const int n : {30, 100}) {
     CAPTURE(n);
     const double first = 2 * std::sin(turn / 4 / (2 * n + 1));
-    const auto pair = beside_exact::balanced(chain(n, 5, 0.2 * first), 1.2 * first);
+    const auto pair = compared_with_exact::balanced(chain(n, 5, 0.2 * first), 1.2 * first);
     Floquet whole(pair.equation);
     const auto exact = along_harmonics::multipliers(pair, whole);
     for (const double reach : {3.0, 6.0}) {
@@ -185,7 +185,7 @@ TEST_CASE("with another load or stiffness the multipliers are those of a structu
     auto s = chain(5, 7, 0.05);
     scene::set(s, "d1.normal_load", load);
     scene::set(s, "d2.stiffness", stiffness);
-    return beside_exact::balanced(s, 0.4);
+    return compared_with_exact::balanced(s, 0.4);
   };
   const auto start = pair(0.2, 0.5);
   Floquet moved(start.equation);

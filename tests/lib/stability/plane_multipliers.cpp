@@ -1,5 +1,5 @@
 // Floquet multipliers with friction in a plane: a closed form in slip, the same contact along a line, and
-// beside Newmark's method with small steps.
+// next to Newmark's method with small steps.
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
@@ -7,7 +7,7 @@
 #include "lib/stability/along_harmonics.hpp"
 #include "lib/stability/multiplier_distance.hpp"
 #include "lib/time/equation/systems.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
@@ -206,7 +206,7 @@ TEST_CASE("multipliers with friction in a plane are those of Newmark's method wi
         pad(9), {.frequency = 95, .method = observables::TimeMethod::newmark_shooting, .steps = 16000});
     REQUIRE(motion.status == observables::Status::complete);
     const auto along = [&](int order) {
-      return along_harmonics::multipliers(beside_exact::balanced(pad(order), 95));
+      return along_harmonics::multipliers(compared_with_exact::balanced(pad(order), 95));
     };
     const auto fine = along(61);
     CHECK(difference(along(31), fine) < 1e-5);

@@ -1,4 +1,4 @@
-// Stability along branches: published bifurcations, and multipliers and their error beside the exact motion.
+// Stability along branches: published bifurcations, and multipliers and their error next to the exact motion.
 // ARCSLIP_SCENES is the number of random structures; by default 30.
 #include "catch.hpp"
 
@@ -6,7 +6,7 @@
 #include "lib/hbm/scenes.hpp"
 #include "lib/laws/contact/contacts.hpp"
 #include "lib/stability/with_stability.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 #include "lib/time/periodic/random_contacts.hpp"
 
 #include <arcslip/analyses/curves/curves.hpp>
@@ -241,7 +241,7 @@ TEST_CASE("multipliers of random structures are within five times their error of
       REQUIRE_FALSE(branches.front().points.empty());
       const auto& point = branches.front().points.front();
       REQUIRE(point.stability);
-      const auto pair = beside_exact::balanced(s, at);
+      const auto pair = compared_with_exact::balanced(s, at);
       time::EventDriven integrator(pair.equation);
       const auto exact = time::periodic_motion(integrator, time::state_of(*pair.problem, pair.u, pair.p));
       REQUIRE(exact.converged());
@@ -317,7 +317,7 @@ TEST_CASE("curves of peaks and folds have the stability of their points") {
 }
 
 TEST_CASE(
-    "a pair on the circle is found beside many lightly damped modes, where its damping changes its sign") {
+    "a pair on the circle is found next to many lightly damped modes, where its damping changes its sign") {
   // van der Pol's force along the first mode q of a chain of equal masses, which leaves the other five
   // linear, with products 1 - |mu|^2 of a few percent. By Liouville's formula the pair of q is on the circle
   // where the mean of coefficient (q^2/a^2 - 1) is minus the viscous damping of q.

@@ -1,5 +1,5 @@
-// Stability of smooth oscillators beside AUTO-07p (0.9.2): collocation in 200 intervals of 4 points, with the
-// force by two further equations, x = a: a' = a + w b - a (a^2 + b^2), b' = -w a + b - b (a^2 + b^2).
+// Stability of smooth oscillators next to AUTO-07p (0.9.2): collocation in 200 intervals of 4 points, with
+// the force by two further equations, x = a: a' = a + w b - a (a^2 + b^2), b' = -w a + b - b (a^2 + b^2).
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
@@ -85,7 +85,7 @@ TEST_CASE("a Duffing oscillator has AUTO's multipliers on all three parts of its
   CHECK(std::abs(folds[1] - 1.4386701455) < 2e-9);
 }
 
-TEST_CASE("an oscillator in a double well has AUTO's multipliers beside its period doubling") {
+TEST_CASE("an oscillator in a double well has AUTO's multipliers next to its period doubling") {
   const scene::Scene s = oscillator(0.3, 2, 3, 0.265581786056, 25);
   check(s, {{1.25, 0, {-0.430182, 0.190534}, {-0.430182, -0.190534}},
             {1.18, 1, -1.20614, -0.167823},

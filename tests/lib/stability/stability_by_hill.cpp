@@ -1,4 +1,4 @@
-// Multipliers by Hill's method on request, beside those of the variational equation.
+// Multipliers by Hill's method on request, next to those of the variational equation.
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"

@@ -1,4 +1,4 @@
-// Where stability is lost at the birth of slip or of contact, beside folds that explain it or do not.
+// Where stability is lost at the birth of slip or of contact, next to folds that explain it or do not.
 #include "catch.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
@@ -13,7 +13,7 @@
 using namespace arcslip;
 using with_stability::events, with_stability::response;
 
-TEST_CASE("a loss of stability next to a fold that does not explain it is told") {
+TEST_CASE("a loss of stability next to a fold that does not explain it is reported") {
   // Two oscillators that nothing couples: a Duffing oscillator, and one that is self-excited in stick and
   // stable in slip, whose slip is born 1e-9 above the force of the second fold.
   const auto two = [&](double limit) {
@@ -40,7 +40,7 @@ TEST_CASE("a loss of stability next to a fold that does not explain it is told")
   CHECK(events(branch, "fold").size() == 2);
 }
 
-TEST_CASE("where the birth of slip is a fold, the fold tells the multiplier that becomes unstable") {
+TEST_CASE("where the birth of slip is a fold, the fold reports the multiplier that becomes unstable") {
   // Two masses, the first one fed, the second one damped, stable in stick. The force at the first one is |D|
   // A with its dynamic stiffness D of the stuck structure; slip adds 4i/pi k_t (A - A_0), which makes that
   // fall: |D|^2 + 4/pi k_t Im D < 0.
@@ -74,7 +74,7 @@ TEST_CASE("where the birth of slip is a fold, the fold tells the multiplier that
   CHECK(events(branch, "stability_lost").empty());
 }
 
-TEST_CASE("at a fold just after grazing a multiplier goes steeply through 1, and the fold alone tells it") {
+TEST_CASE("at a fold just after grazing a multiplier goes steeply through 1, and the fold alone reports it") {
   // Next to grazing it grows like a root of the amplitude.
   const auto s = scenes::example("unilateral_oscillator");
   for (const double from : {0.3, 0.37, 0.45, 0.62}) {

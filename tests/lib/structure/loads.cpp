@@ -1,5 +1,5 @@
 // Reductions with loads on all rows, with a stiffness that grows with the square of a speed, and with
-// gyroscopic, circulatory and other unsymmetric matrices, beside the whole structures.
+// gyroscopic, circulatory and other unsymmetric matrices, next to the whole structures.
 #include "catch.hpp"
 
 #include "lib/structure/matrices.hpp"

@@ -1,4 +1,4 @@
-// Reduced structures beside the whole ones, and beside natural frequencies in closed form.
+// Reduced structures next to the whole ones, and next to natural frequencies in closed form.
 #include "catch.hpp"
 
 #include "lib/structure/matrices.hpp"
@@ -107,8 +107,8 @@ TEST_CASE("a reduced beam has the dynamic stiffness of the whole one up to its h
   const structure::Reduced reduced = structure::reduce(beam, kept, highest);
   CAPTURE(clamped, kept.size(), highest, reduced.M.rows(), reduced.error);
   CHECK(reduced.M.rows() < 40);
-  // Rounding: the entries of a beam of n elements determine its motion to n^4 2e-16, and beside a pole with a
-  // loss factor of 0.01 to 100 times that.
+  // Rounding: the entries of a beam of n elements determine its motion to n^4 2e-16, and next to a pole with
+  // a loss factor of 0.01 to 100 times that.
   const double rounding = std::pow(30, 4) * 2e-16 / 0.01;
   CHECK(reduced.error < rounding);
   CHECK(difference(beam, kept, highest, reduced) < rounding);
@@ -148,7 +148,7 @@ TEST_CASE("a structure of which all rows are kept is not changed") {
         1e-15 * reduced.K.norm());
 }
 
-TEST_CASE("a reduction tells the row at which matrices are not positive definite, and can be stopped") {
+TEST_CASE("a reduction reports the row at which matrices are not positive definite, and can be stopped") {
   structures::Entries K = {{0, 0, 2}, {1, 1, 1}, {2, 2, 3}, {0, 1, -1}, {1, 0, -1}, {1, 2, -2}, {2, 1, -2}},
                       M;
   for (int i = 0; i < 3; ++i) M.push_back({i, i, 1e-3});
@@ -193,7 +193,7 @@ TEST_CASE("the error of a reduction has what the last digits of the entries chan
   CHECK(refusal(spring_chain({1, 1e15}), kept, 1) != "none");
 }
 
-TEST_CASE("a reduction tells up to where natural frequencies of 0 cannot be told from others") {
+TEST_CASE("a reduction reports up to where natural frequencies of 0 cannot be distinguished from others") {
   const double eps = std::numeric_limits<double>::epsilon(), sigma = 0.09, k = 1e9;
   const structure::Reduced reduced = structure::reduce(spring_chain({0, k}), {0}, 1);
   CHECK(reduced.free_below == Approx(std::sqrt(2 * eps * k + 1e-9 * sigma)).epsilon(1e-6));

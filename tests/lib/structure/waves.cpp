@@ -1,4 +1,4 @@
-// Sectors with rows on both faces: in a wave, beside the closed ring of their copies.
+// Sectors with rows on both faces: in a wave, next to the closed ring of their copies.
 #include "catch.hpp"
 
 #include "lib/structure/matrices.hpp"

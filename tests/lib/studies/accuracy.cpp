@@ -1,4 +1,4 @@
-// The study "accuracy": errors beside closed forms and exact numbers, and what it tells.
+// The study "accuracy": errors next to closed forms and exact numbers, and what it reports.
 #include "catch.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
@@ -66,7 +66,7 @@ TEST_CASE("of a linear oscillator every order is exact, and Newmark's error at a
   check_best(found);
 }
 
-TEST_CASE("of the paper's oscillator errors are those beside the exact peak") {
+TEST_CASE("of the paper's oscillator errors are those compared with the exact peak") {
   const auto exact = reference::exact("resonance_peaks");
   const auto& peak = *std::find_if(exact.begin(), exact.end(), [](const auto& each) {
     return each["normal_load"].template get<double>() == 3;

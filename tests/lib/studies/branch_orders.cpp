@@ -1,4 +1,4 @@
-// The order of the harmonics where branches leave others, and where peaks are flat: what is told beside
+// The order of the harmonics where branches leave others, and where peaks are flat: what is reported next to
 // numbers of integration in time and of many harmonics.
 #include "catch.hpp"
 

@@ -1,5 +1,5 @@
-// The accuracy that modes are told to have, beside the energy integral of conservative oscillators, and
-// beside shooting with Runge-Kutta steps of damped ones.
+// The accuracy that modes are reported to have, next to the energy integral of conservative oscillators, and
+// compared with shooting with Runge-Kutta steps of damped ones.
 #include "catch.hpp"
 #include "random.hpp"
 
@@ -183,7 +183,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "conservative modes over four decades are within the accuracy that is told, beside energy integrals") {
+    "conservative modes over four decades are within the accuracy that is reported, next to energy "
+    "integrals") {
   const std::uint64_t count = mode_accuracy::conservative.count();
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     test_random::Random random(seed);
@@ -197,13 +198,13 @@ TEST_CASE(
     CHECK(branch["status"] == "complete");
     const Json& error = branch["accuracy"]["error"];
     REQUIRE(error.is_number());
-    const double told = error;
+    const double reported = error;
     for (const Json& point : branch["points"]) {
       const double amplitude = point["amplitude"], frequency = point["frequency"];
       CAPTURE(amplitude);
       const double away = std::abs(frequency / of.frequency(amplitude) - 1);
-      CHECK(away < 2 * told + 1e-8);  // at some amplitudes only is it looked at
-      if (told <= wanted) CHECK(away < wanted);
+      CHECK(away < 2 * reported + 1e-8);  // at some amplitudes only is it looked at
+      if (reported <= wanted) CHECK(away < wanted);
     }
   }
 }
@@ -214,7 +215,7 @@ TEST_CASE("shooting has the frequency and the damping ratio of a linear oscillat
   CHECK(std::abs(found.damping_ratio / 0.05 - 1) < 1e-10);
 }
 
-TEST_CASE("damped modes over four decades are within the accuracy that is told, beside shooting") {
+TEST_CASE("damped modes over four decades are within the accuracy that is reported, compared with shooting") {
   const std::uint64_t count = mode_accuracy::damped.count();
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     test_random::Random random(seed);
@@ -228,7 +229,7 @@ TEST_CASE("damped modes over four decades are within the accuracy that is told, 
     CHECK(branch["status"] == "complete");
     const Json& error = branch["accuracy"]["error"];
     REQUIRE(error.is_number());
-    const double told = error;
+    const double reported = error;
     double highest = 0;
     const auto& points = branch["points"];
     REQUIRE(points.size() > 20);
@@ -240,8 +241,8 @@ TEST_CASE("damped modes over four decades are within the accuracy that is told, 
       const double away = std::max(std::abs(here.omega / exact.omega - 1),
                                    std::abs(here.damping_ratio - exact.damping_ratio) / highest);
       CAPTURE(amplitude, here.omega, exact.omega, here.damping_ratio, exact.damping_ratio);
-      CHECK(away < 2 * told + 1e-6);
-      if (told <= wanted) CHECK(away < wanted);
+      CHECK(away < 2 * reported + 1e-6);
+      if (reported <= wanted) CHECK(away < wanted);
     }
   }
 }

@@ -1,5 +1,5 @@
-// The order of the harmonics by an accuracy: what is reached beside exact numbers, and what is told where it
-// is not.
+// The order of the harmonics by an accuracy: what is reached next to exact numbers, and what is reported
+// where it is not.
 #include "catch.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
@@ -154,7 +154,7 @@ TEST_CASE("what fails twice, and what the user ends, is not computed again") {
         }).size() == 1);
 }
 
-TEST_CASE("peaks of the paper's oscillator are as accurate as was asked for, beside the exact ones") {
+TEST_CASE("peaks of the paper's oscillator are as accurate as was asked for, next to the exact ones") {
   const auto exact = reference::exact("resonance_peaks");
   for (const auto& each : exact) {
     const double load = each["normal_load"], amplitude = each["amplitude"];
@@ -165,18 +165,18 @@ TEST_CASE("peaks of the paper's oscillator are as accurate as was asked for, bes
       const Json all = results_json(accurate(
           with_study(scenes::paper(7, load), studies::frf(), observables::FrequencyRange{17, 28}), accuracy));
       const Json& branch = all["branches"][0];
-      const Json& told = branch["accuracy"];
-      CAPTURE(told.dump());
-      CHECK(told["wanted"] == accuracy);
-      CHECK(told["error"] <= accuracy);
+      const Json& reported = branch["accuracy"];
+      CAPTURE(reported.dump());
+      CHECK(reported["wanted"] == accuracy);
+      CHECK(reported["error"] <= accuracy);
       CHECK(std::abs(peak(branch)["amplitude"].get<double>() / amplitude - 1) <= accuracy);
-      CHECK(told["order"] >= before);
-      CHECK(told["orders"].back() == told["order"]);
+      CHECK(reported["order"] >= before);
+      CHECK(reported["orders"].back() == reported["order"]);
       CHECK(!branch.contains("doubt"));
-      before = told["order"];
+      before = reported["order"];
       // The same as with its order given for the whole response.
       const Json highest = peak(branch);
-      CHECK(highest["order"] <= told["order"]);
+      CHECK(highest["order"] <= reported["order"]);
       const scene::Scene given = with_study(scenes::paper(highest["order"], load), studies::frf(),
                                             observables::FrequencyRange{17, 28});
       const Json there = peak(results_json(given)["branches"][0]);
@@ -187,7 +187,7 @@ TEST_CASE("peaks of the paper's oscillator are as accurate as was asked for, bes
   }
 }
 
-TEST_CASE("a curve is as accurate as was asked for, beside exact motions in time") {
+TEST_CASE("a curve is as accurate as was asked for, compared with exact motions in time") {
   const observables::FrequencyRange range{18, 24};
   const double accuracy = 1e-5;
   scene::Scene s = accurate(with_study(scenes::paper(7, 3), studies::frf(), range), accuracy);
@@ -243,7 +243,7 @@ TEST_CASE("sampled friction has samples for the accuracy") {
                  1) <= 1e-4);
 }
 
-TEST_CASE("an accuracy that is not reached is told") {
+TEST_CASE("an accuracy that is not reached is reported") {
   const Json all = results_json(accurate(
       with_study(scenes::paper(7, 3), studies::frf(), observables::FrequencyRange{17, 28}), 1e-9, 15));
   const Json& branch = all["branches"][0];
@@ -383,10 +383,10 @@ TEST_CASE("optima and curves of optima take an accuracy") {
       return (along ? result["points"].back()["amplitude"] : result["optimum"]["amplitude"]).get<double>();
     };
     const Json all = results_json(accurate(s, 1e-6));
-    const Json& told = all[list][0]["accuracy"];
-    CAPTURE(told.dump());
-    CHECK(told["error"] <= 1e-6);
-    CHECK(told["order"] > 3);
+    const Json& reported = all[list][0]["accuracy"];
+    CAPTURE(reported.dump());
+    CHECK(reported["error"] <= 1e-6);
+    CHECK(reported["order"] > 3);
     scene::Scene finer = s;
     finer.harmonics.order = 99;
     CHECK(std::abs(amplitude(all) / amplitude(results_json(finer)) - 1) <= 1e-6);
@@ -403,12 +403,12 @@ TEST_CASE("an accuracy holds at a cusp, at whose load more harmonics have no fol
         if (event["kind"] == "cusp") return event;
     return Json();
   };
-  const Json all = results_json(s), found = cusp(all), told = all["branches"][0]["accuracy"];
+  const Json all = results_json(s), found = cusp(all), reported = all["branches"][0]["accuracy"];
   REQUIRE(found.is_object());
   CHECK(found["truncation_estimate"].is_number());
   CHECK(found["truncation_flagged"] == false);
-  CHECK(told["error"] <= 1e-4);
-  CHECK(told["order"] < 20);  // with the estimate at a fixed load it is not reached by 173
+  CHECK(reported["error"] <= 1e-4);
+  CHECK(reported["order"] < 20);  // with the estimate at a fixed load it is not reached by 173
   scene::Scene finer = s;
   finer.harmonics.accuracy = 0;
   finer.harmonics.order = 45;

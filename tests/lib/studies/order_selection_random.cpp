@@ -1,4 +1,4 @@
-// The order by an accuracy on random structures, beside a much higher order.
+// The order by an accuracy on random structures, next to a much higher order.
 
 #include "catch.hpp"
 

@@ -1,4 +1,4 @@
-// Oscillators, isolators and a rotor as a user computes them, from a scene file by its studies, beside
+// Oscillators, isolators and a rotor as a user computes them, from a scene file by its studies, next to
 // numbers of other methods: shooting and integration in time by Runge-Kutta steps, closed forms, linear
 // equations, published tables.
 #include "catch.hpp"
@@ -67,14 +67,14 @@ TEST_CASE("frequency responses have their peaks, folds and bifurcations where ot
   }
 }
 
-TEST_CASE("a response is told to be unstable where shooting has a multiplier outside of the unit circle",
+TEST_CASE("a response is reported to be unstable where shooting has a multiplier outside of the unit circle",
           "[numbers]") {
-  struct Told {
+  struct Reported {
     const char* scene;
     std::vector<Parts> unstable;  // of each branch
   };
   const Parts well = {{0.86656707, 0.45499347}, {0.45501853, 0.70097701}}, hilltop = {{0.4, 1.2}};
-  const std::vector<Told> all = {
+  const std::vector<Reported> all = {
       {"softening_duffing", {{{0.89277921, 0.86270560}}}},
       // It is stable between the fold at 0.45499347 rad/s and the period doubling next to it.
       {"well_about_its_bottom", {well, hilltop}},
@@ -82,7 +82,7 @@ TEST_CASE("a response is told to be unstable where shooting has a multiplier out
       {"two_to_one", {{{1.94977385, 2.04927705}}}},
   };
   Json softening;
-  for (const Told& each : all) {
+  for (const Reported& each : all) {
     const results::Results found = studies::run(scene_of(each.scene, studies::frf()));
     const Json branches = all_of(found)["branches"];
     if (softening.is_null()) softening = branches[0];
@@ -90,11 +90,11 @@ TEST_CASE("a response is told to be unstable where shooting has a multiplier out
     REQUIRE(found.results.size() >= each.unstable.size());
     for (std::size_t k = 0; k < each.unstable.size(); ++k) {
       CAPTURE(k, found.results[k].end.remark);
-      const Parts told = unstable_parts(found.results[k].end.remark);
-      REQUIRE(told.size() == each.unstable[k].size());
-      for (std::size_t i = 0; i < told.size(); ++i) {
-        CHECK(std::abs(told[i].first - each.unstable[k][i].first) < 1e-7);
-        CHECK(std::abs(told[i].second - each.unstable[k][i].second) < 1e-7);
+      const Parts reported = unstable_parts(found.results[k].end.remark);
+      REQUIRE(reported.size() == each.unstable[k].size());
+      for (std::size_t i = 0; i < reported.size(); ++i) {
+        CHECK(std::abs(reported[i].first - each.unstable[k][i].first) < 1e-7);
+        CHECK(std::abs(reported[i].second - each.unstable[k][i].second) < 1e-7);
       }
       if (each.unstable[k] != hilltop) continue;
       for (const Json& point : branches[k]["points"]) CHECK(point["stable"] == false);

@@ -126,15 +126,15 @@ inline Json highest_peak(const Json& branch) {
   return highest;
 }
 
-/// "unstable from 0.89 to 0.86, from ... rad/s" of what is told about a branch.
+/// "unstable from 0.89 to 0.86, from ... rad/s" of what is reported about a branch.
 inline Parts unstable_parts(const std::string& remark) {
   Parts parts;
   const std::string::size_type at = remark.find("unstable ");
   if (at == std::string::npos) return parts;
-  const std::string told = remark.substr(at, remark.find(" rad/s", at) - at);
+  const std::string reported = remark.substr(at, remark.find(" rad/s", at) - at);
   const std::regex part("from ([0-9.e-]+) to ([0-9.e-]+)");
-  for (auto each = std::sregex_iterator(told.begin(), told.end(), part); each != std::sregex_iterator();
-       ++each)
+  for (auto each = std::sregex_iterator(reported.begin(), reported.end(), part);
+       each != std::sregex_iterator(); ++each)
     parts.emplace_back(std::stod((*each)[1]), std::stod((*each)[2]));
   return parts;
 }

@@ -1,5 +1,5 @@
-// Joints, modes, bladed disks and absorbers as a user computes them, from a scene file by its studies, beside
-// numbers of other methods: shooting and integration in time by Runge-Kutta steps, closed forms, linear
+// Joints, modes, bladed disks and absorbers as a user computes them, from a scene file by its studies, next
+// to numbers of other methods: shooting and integration in time by Runge-Kutta steps, closed forms, linear
 // equations, published tables.
 #include "catch.hpp"
 
@@ -62,7 +62,7 @@ TEST_CASE("a wedge on its static offset between two masses moves as by integrati
     CHECK(std::abs(last["amplitude"].get<double>() - motion["amplitude"].get<double>()) <=
           2 * last["truncation_estimate"].get<double>());
   }
-  // Newton's method from rest ends beside the response, at what is none.
+  // Newton's method from rest ends next to the response, at what is none.
   scene::Scene seven = at_frequency("wedge_damper", 162.7);
   seven.harmonics.order = 7;
   const Json found = responses_at(seven);
@@ -158,14 +158,14 @@ double amplitude_of_b2(Eigen::MatrixXcd K, double force, double frequency) {
   return std::abs(K.partialPivLu().solve(f)[2]);
 }
 
-/// A peak is as high as the linear equations have it, and higher than they are beside it.
+/// A peak is as high as the linear equations have it, and higher than they are next to it.
 template <class Amplitude>
-void check_linear_peak(const Json& peak, const Amplitude& amplitude, double beside) {
+void check_linear_peak(const Json& peak, const Amplitude& amplitude, double nearby) {
   const double frequency = peak["frequency"], highest = peak["amplitude"];
   CAPTURE(frequency, highest);
   CHECK(std::abs(highest / amplitude(frequency) - 1) < 1e-8);
-  CHECK(amplitude(frequency * (1 - beside)) < amplitude(frequency));
-  CHECK(amplitude(frequency * (1 + beside)) < amplitude(frequency));
+  CHECK(amplitude(frequency * (1 - nearby)) < amplitude(frequency));
+  CHECK(amplitude(frequency * (1 + nearby)) < amplitude(frequency));
 }
 
 }  // namespace
@@ -190,8 +190,7 @@ TEST_CASE("a bladed disk has its peaks at the natural frequencies of its engine 
     const Eigen::MatrixXcd K = Complex(1, 1e-6) * sector_stiffness(engine_order, false).cast<Complex>();
     for (const Json& event : branches[0]["events"])
       if (event["kind"] == "peak")
-        check_linear_peak(
-            event, [&](double hertz) { return amplitude_of_b2(K, 1, hertz); }, 1e-8);
+        check_linear_peak(event, [&](double hertz) { return amplitude_of_b2(K, 1, hertz); }, 1e-8);
   }
 }
 

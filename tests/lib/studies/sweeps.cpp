@@ -117,7 +117,7 @@ TEST_CASE("keys of a sweep that contradict each other are faults") {
         "/studies/0/spacing: found 1e-09, which makes more than 1000000 frequencies");
   CHECK(fault(R"(, "spacing": 0.1)").empty());
   CHECK(fault(R"(, "spacing": 0.1, "points": 7)") ==
-        "/studies/0/points: found beside \"spacing\", which takes its place: give one of them");
+        "/studies/0/points: found next to \"spacing\", which takes its place: give one of them");
   const auto of_time = [](const std::string& more) {
     Json json = Json::parse(scene::write(swept()));
     json["studies"] = Json::parse(R"([{"kind": "time", "frequency": 1, )" + more + "}]");
@@ -130,9 +130,9 @@ TEST_CASE("keys of a sweep that contradict each other are faults") {
   };
   CHECK(
       of_time(R"("perturbation": 0.1)") ==
-      R"(/studies/0/perturbation: found beside no "start", must be with one: a transient from rest is not disturbed)");
+      R"(/studies/0/perturbation: found next to no "start", must be with one: a transient from rest is not disturbed)");
   CHECK(
       of_time(R"("perturbation": 0.1, "start": 1)") ==
-      R"(/studies/0/perturbation: found beside a method of shooting, must be with "newmark" or "event-driven")");
+      R"(/studies/0/perturbation: found next to a method of shooting, must be with "newmark" or "event-driven")");
   CHECK(of_time(R"("perturbation": 0.1, "start": 1, "method": "newmark")").empty());
 }

@@ -1,4 +1,5 @@
-// The accuracy that damped modes of two masses are told to have, beside shooting with Runge-Kutta steps.
+// The accuracy that damped modes of two masses are reported to have, compared with shooting with Runge-Kutta
+// steps.
 #include "catch.hpp"
 #include "random.hpp"
 
@@ -164,7 +165,8 @@ TEST_CASE("shooting has the frequency and the shape of two linear masses") {
 }
 
 TEST_CASE(
-    "damped modes of two masses over four decades are within the accuracy that is told, beside shooting") {
+    "damped modes of two masses over four decades are within the accuracy that is reported, compared with "
+    "shooting") {
   const std::uint64_t count = mode_accuracy::two_masses.count();
   std::uint64_t complete = 0;
   int motions = 0;
@@ -188,7 +190,7 @@ TEST_CASE(
     ++complete;
     const Json& error = branch["accuracy"]["error"];
     REQUIRE(error.is_number());
-    const double told = error;
+    const double reported = error;
     double highest = 0;
     const auto& points = branch["points"];
     REQUIRE(points.size() > 20);
@@ -206,8 +208,8 @@ TEST_CASE(
       const double away = std::max(std::abs(here.omega / exact.omega - 1),
                                    std::abs(here.damping_ratio - exact.damping_ratio) / highest);
       CAPTURE(exact.omega, exact.damping_ratio);
-      CHECK(away < 2 * told + 1e-6);
-      if (told <= wanted) CHECK(away < wanted);
+      CHECK(away < 2 * reported + 1e-6);
+      if (reported <= wanted) CHECK(away < wanted);
       ++motions;
     }
   }

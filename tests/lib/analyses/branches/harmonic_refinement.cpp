@@ -1,4 +1,4 @@
-// Parts of a response with more harmonics than the rest: which ones, how they are joined, and beside the
+// Parts of a response with more harmonics than the rest: which ones, how they are joined, and next to the
 // whole response with as many harmonics.
 
 #include "catch.hpp"
@@ -117,7 +117,7 @@ class Reference {
   std::unique_ptr<observables::Observer> observer_;
 };
 
-/// A response in parts beside the whole one with as many harmonics, and one with many more.
+/// A response in parts next to the whole one with as many harmonics, and one with many more.
 void check_parts(const observables::RefinedResponse& refined, const ResponseBranch& coarse,
                  const ResponseBranch& whole, Reference& many, double accuracy) {
   REQUIRE(refined.branches.size() == 1);

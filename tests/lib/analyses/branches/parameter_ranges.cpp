@@ -17,7 +17,7 @@ using test_random::Random;
 
 namespace {
 
-const std::string window_name = "window";  // beside the parameters of the scene: a factor of both ends
+const std::string window_name = "window";  // next to the parameters of the scene: a factor of both ends
 
 // One value of a parameter, and of the window its factor.
 struct Value {

@@ -23,7 +23,7 @@ constexpr std::size_t checked =
 
 constexpr double lengths[] = {0x1p-30, 0x1p9, 0x1p40}, masses[] = {0x1p-7, 0x1p20}, times[] = {0x1p-9, 0x1p5};
 
-std::string told(const Tally& tally) {
+std::string reported(const Tally& tally) {
   std::ostringstream text;
   text << tally.scenes << " scenes, " << tally.branches << " branches, " << tally.points
        << " points: " << tally.flagged << " flagged, " << tally.linear << " in one state, " << tally.rounded
@@ -39,7 +39,7 @@ std::string told(const Tally& tally) {
 }
 
 void require_no_faults(const Tally& tally) {
-  WARN(told(tally));
+  WARN(reported(tally));
   for (std::size_t i = 0; i < std::min<std::size_t>(tally.faults.size(), 20); ++i)
     UNSCOPED_INFO(tally.faults[i]);
   CHECK(tally.faults.size() == 0);

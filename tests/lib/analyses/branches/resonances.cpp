@@ -1,4 +1,5 @@
-// Where resonances lie: natural frequencies in closed form, free and stuck, and what is told beside a window.
+// Where resonances lie: natural frequencies in closed form, free and stuck, and what is reported next to a
+// window.
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
@@ -100,7 +101,7 @@ TEST_CASE("springs act with their tangent at rest, a gap and rigid friction are 
   }
 }
 
-TEST_CASE("modes without a response or without an excitation are told") {
+TEST_CASE("modes without a response or without an excitation are reported") {
   // In the first mode both masses move alike, in the second one against each other.
   const std::string difference = R"({"direction": {"a": 1, "b": -1}})";
   const std::string alike = R"({"name": "f", "direction": {"a": 1, "b": 1}, "cosine": 1})";
@@ -112,8 +113,7 @@ TEST_CASE("modes without a response or without an excitation are told") {
   for (const ModeAtRest& mode : modes(pair(), Contacts::free)) CHECK((mode.responds && mode.driven));
 }
 
-TEST_CASE(
-    "of modes of one frequency the motion that the excitation drives tells whether the response moves") {
+TEST_CASE("of modes of one frequency the motion that the excitation drives says whether the response moves") {
   // A mass that moves in two directions, with equal springs but for the factor of the second one.
   const auto in_plane = [](const std::string& force, const std::string& response, const std::string& second) {
     return modes(scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
@@ -177,7 +177,7 @@ TEST_CASE("in a sector they are those of the wave of the excitation") {
   }
 }
 
-TEST_CASE("a window is told which resonances lie below, within and above it") {
+TEST_CASE("a window is reported which resonances lie below, within and above it") {
   const model::Model model = model::build(pair());
   const auto all = observables::resonances(model, model::defaults(model));
   const auto unit = scene::FrequencyUnit::radian_per_second;

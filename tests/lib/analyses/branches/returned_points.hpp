@@ -39,7 +39,7 @@ struct Tally {
   double seconds = 0;  // of processor time, without the checks
 };
 
-/// Points of a branch, beside its events, that are held against the equations: each `every`-th from `first`
+/// Points of a branch, next to its events, that are held against the equations: each `every`-th from `first`
 /// on.
 struct Some {
   std::size_t first = 0, every = 1;

@@ -92,7 +92,7 @@ void check_energies(const observables::ResponseBranch& branch) {
   CHECK(worst < 1e-8);
 }
 
-/// Beside cubic springs there may be several responses at an end of the window: whether both traces began
+/// Next to cubic springs there may be several responses at an end of the window: whether both traces began
 /// with the same one, or, backwards, ended where the other one began.
 bool same_ends(const invariances::Response& one, const invariances::Response& other, bool backwards) {
   const auto same = [](const auto& a, const auto& b) {
@@ -202,7 +202,7 @@ TEST_CASE("harmonic balance of random structures is their motion in time") {
   double worst = 0;
   long compared = 0;
   const structures::Seeds seeds = structures::seeds();
-  for (std::uint64_t seed = seeds.first; seed < seeds.end; seed += structures::beside_time) {
+  for (std::uint64_t seed = seeds.first; seed < seeds.end; seed += structures::near_time) {
     scene::Scene s = structure(seed);
     Random random(seed);
     const auto branches = observables::frequency_response(s, scenes::window(s));

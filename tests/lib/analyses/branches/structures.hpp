@@ -18,6 +18,6 @@ inline Seeds seeds() {
 }
 
 /// One of so many is also integrated in time.
-inline constexpr std::uint64_t beside_time = 4;
+inline constexpr std::uint64_t near_time = 4;
 
 }  // namespace structures

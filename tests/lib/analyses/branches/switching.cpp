@@ -1,5 +1,5 @@
-// Branches that leave others: their motions beside the motion in time, where they begin and end, and what is
-// told.
+// Branches that leave others: their motions compared with the motion in time, where they begin and end, and
+// what is reported.
 #include "catch.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
@@ -190,7 +190,7 @@ TEST_CASE("the intervals between period doublings shrink by Feigenbaum's number 
   CHECK(std::abs(second - 4.669201609) < 0.2 * std::abs(first - 4.669201609));
 }
 
-TEST_CASE("beside a period doubling the new harmonics grow with the root of the distance") {
+TEST_CASE("next to a period doubling the new harmonics grow with the root of the distance") {
   const int order = 16;
   const auto branches = all(double_well.scene(order), 1.12, 1.3, {.doublings = 1});
   REQUIRE(branches.size() >= 2);
@@ -259,7 +259,7 @@ TEST_CASE("a linear structure and one with friction have one branch, the same as
   }
 }
 
-TEST_CASE("branches beyond the limits asked for are told") {
+TEST_CASE("branches beyond the limits asked for are reported") {
   const auto s = double_well.scene(12);
   const auto none = all(s, 1.12, 1.3, {.doublings = 0});
   REQUIRE(none.size() == 2);  // with the motion about the hilltop, which has no doubling
@@ -281,7 +281,8 @@ TEST_CASE("branches beyond the limits asked for are told") {
 }
 
 TEST_CASE(
-    "two masses and a stop: the motion of twice the period between NLvib's doublings, beside the exact one") {
+    "two masses and a stop: the motion of twice the period between NLvib's doublings, next to the exact "
+    "one") {
   auto s = scenes::example("unilateral_oscillator");
   s.harmonics.order = 40;
   const auto branches = all(s, 0.57, 0.77, {.doublings = 1});

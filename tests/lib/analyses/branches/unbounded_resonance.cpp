@@ -169,7 +169,7 @@ TEST_CASE("each of two undamped modes is unbounded at its natural frequency") {
 
 TEST_CASE("beyond the fold of a branch that turns back to a pole, peaks are found from the other end") {
   // x on a spring of 1 N/m that yields to 1/4 N/m beyond 1 m, without damping: its branch from rest has a
-  // fold below 1 rad/s, and turns back to the pole of the far stiffness, 0.5 rad/s. Beside it a mass y on a
+  // fold below 1 rad/s, and turns back to the pole of the far stiffness, 0.5 rad/s. Next to it a mass y on a
   // spring of 2.25 N/m with a damper of 0.1 N s/m, whose peak is beyond.
   const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x", "y"], "masses": [{"name": "m", "at": "x", "value": 1}, {"name": "n", "at": "y", "value": 1}],

@@ -1,4 +1,5 @@
-// Curves of bifurcations in two parameters, beside shooting in this test, closed forms and invariances.
+// Curves of bifurcations in two parameters, compared with shooting in this test, closed forms and
+// invariances.
 #include "catch.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
@@ -145,9 +146,7 @@ struct Shooting {
 
 Shooting of_double_well() {
   return {[](double x, double v) { return 0.3 * v - x + x * x * x; },
-          [](double x, double) {
-            return std::array{3 * x * x - 1, 0.3};
-          }};
+          [](double x, double) { return std::array{3 * x * x - 1, 0.3}; }};
 }
 
 Shooting of_van_der_pol() {
@@ -246,11 +245,11 @@ TEST_CASE("a curve of period doublings turns in the force where two of the frequ
   CHECK(found[0].points.back().over == 0.21);
   const auto turns = events(found[0], "fold");
   REQUIRE(turns.size() == 1);
-  for (const double beside : {-1e-4, 1e-4}) {
+  for (const double nearby : {-1e-4, 1e-4}) {
     auto s = double_well(30);
-    scene::set(s, "f.cosine", turns[0].point.over + beside);
+    scene::set(s, "f.cosine", turns[0].point.over + nearby);
     const auto response = observables::frequency_response(s, {0.5, 1.2, true});
-    CHECK(events(response.at(0), "period_doubling").size() == (beside < 0 ? 0 : 2));
+    CHECK(events(response.at(0), "period_doubling").size() == (nearby < 0 ? 0 : 2));
   }
 }
 
@@ -267,7 +266,7 @@ TEST_CASE("Neimark-Sacker points of a van der Pol oscillator are where its dampi
     CHECK(std::abs(mean_square(point, curve.harmonics) - 1) < 1e-9);
     CHECK(point.stability->unstable == 0);
   }
-  // Strong resonances, beside shooting for det M = 1 and the trace.
+  // Strong resonances, compared with shooting for det M = 1 and the trace.
   const Shooting exact = of_van_der_pol();
   const struct {
     const char* kind;

@@ -1,4 +1,4 @@
-// What harmonics left out do to the events of curves of peaks and folds, beside more harmonics.
+// What harmonics left out do to the events of curves of peaks and folds, next to more harmonics.
 
 #include "catch.hpp"
 #include "environment.hpp"

@@ -1,4 +1,4 @@
-// The estimates of events of curves of peaks against the errors that a much higher order tells, on random
+// The estimates of events of curves of peaks against the errors that a much higher order reports, on random
 // structures.
 
 #include "catch.hpp"

@@ -58,7 +58,7 @@ std::vector<ResponsePoint> peaks_of(scene::Scene s, const std::string& over, dou
   return peaks;
 }
 
-/// Whether a response has it, near by: beside the end of a curve a peak and its minimum are narrower than a
+/// Whether a response has it, near by: next to the end of a curve a peak and its minimum are narrower than a
 /// step.
 bool is_peak(const scene::Scene& s, const std::string& over, const ResponsePoint& point) {
   const double frequency = point.omega / scene::to_rad_per_s(s.frequency_unit);
@@ -74,15 +74,15 @@ bool is_peak(const scene::Scene& s, const std::string& over, const ResponsePoint
   return false;
 }
 
-/// Every curve is whole, and its points are peaks, but for those nearer than `beside` to its ends, relative;
+/// Every curve is whole, and its points are peaks, but for those nearer than `next to` to its ends, relative;
 /// each peak of responses between is on one curve.
-void check_curves(const scene::Scene& s, const CurveRange& range, std::size_t every, double beside = 0) {
+void check_curves(const scene::Scene& s, const CurveRange& range, std::size_t every, double nearby = 0) {
   const auto curves = observables::resonance_peaks(s, range);
   for (const ResponseBranch& curve : curves) {
     CAPTURE(curve.stop.message);
     CHECK(curve.status == observables::Status::complete);
     const auto is_end = [&](const ResponsePoint& point, const ResponsePoint& end) {
-      return std::abs(point.over / end.over - 1) < beside;
+      return std::abs(point.over / end.over - 1) < nearby;
     };
     for (std::size_t i = every / 2; i + 1 < curve.points.size(); i += every) {
       if (is_end(curve.points[i], curve.points.front()) || is_end(curve.points[i], curve.points.back()))
@@ -118,7 +118,7 @@ TEST_CASE(
     std::uint64_t seed;
     double from, to;
   };
-  // In turn: the load changes with the root of the slip beside the corner; another instant of the motion
+  // In turn: the load changes with the root of the slip next to the corner; another instant of the motion
   // becomes the largest at a corner; the highest reversal of an element that sticks changes; full stick with
   // two highest reversals.
   for (const Case& each : {Case{Excitation::first, 7, 0.224333, 22.4333},

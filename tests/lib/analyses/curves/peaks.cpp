@@ -199,7 +199,7 @@ TEST_CASE(
 
 namespace {
 
-/// A mass with an absorber of a tenth of it beside, which friction ties to it more and more firmly: one
+/// A mass with an absorber of a tenth of it next to, which friction ties to it more and more firmly: one
 /// resonance where it slips, two where it sticks.
 scene::Scene absorber() {
   return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
@@ -324,7 +324,7 @@ TEST_CASE("where there is no peak in the window, the study says so") {
   CHECK(branches[0].stop.message.find("no resonance peak was found at damper.normal_load = 0.1") == 0);
 }
 
-TEST_CASE("peaks below a share of the highest one beside them start no curve, and others all of theirs") {
+TEST_CASE("peaks below a share of the highest one next to them start no curve, and others all of theirs") {
   const scene::Scene s =
       scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
     "dofs": ["a", "b"], "masses": [{"name": "ma", "at": "a", "value": 1}, {"name": "mb", "at": "b", "value": 1}],

@@ -1,4 +1,4 @@
-// Sweeps of the frequency beside closed forms and beside the folds of harmonic balance.
+// Sweeps of the frequency next to closed forms and next to the folds of harmonic balance.
 #include "catch.hpp"
 
 #include "lib/analyses/responses/reference.hpp"

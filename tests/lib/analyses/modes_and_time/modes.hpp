@@ -17,7 +17,7 @@ using observables::ResponseBranch;
 using observables::ResponsePoint;
 using scenes::parse;
 
-// One mass, m = k = 1 unless told, with elements.
+// One mass, m = k = 1 unless reported, with elements.
 inline scene::Scene oscillator(const std::string& elements, int order, double damping = 0,
                                const std::string& excitation = R"("harmonic": 1, "cosine": 1)") {
   return parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",

@@ -1,4 +1,4 @@
-// Forced responses beside a nonlinear mode.
+// Forced responses next to a nonlinear mode.
 #include "lib/analyses/modes_and_time/modes.hpp"
 
 #include <arcslip/results/event_kinds.hpp>
@@ -26,7 +26,7 @@ constexpr const char* stuck =
 }  // namespace
 
 TEST_CASE(
-    "beside a linear mode the response, its peak and the level of each peak are those of the structure") {
+    "next to a linear mode the response, its peak and the level of each peak are those of the structure") {
   const double c = 0.3, k = 1.25, omega = std::sqrt(k), zeta = c / (2 * omega);
   const ResponseBranch branch =
       observables::nonlinear_modes(oscillator(stuck, 3, c), {1, 1e-3, 1e2, 7}).front();
@@ -113,7 +113,7 @@ TEST_CASE("a loss factor and viscous damping move a peak as in the response in c
   }
 }
 
-TEST_CASE("a mode has no forced response beside it where the excitation does not drive its fundamental") {
+TEST_CASE("a mode has no forced response next to it where the excitation does not drive its fundamental") {
   const std::string contact =
       R"({"name": "d", "type": "jenkins", "between": ["x1", "x2"], "stiffness": 0.25, "friction_coefficient": 1,
           "normal_load": 1}, {"name": "s", "type": "cubic_spring", "at": "x1", "stiffness": 1e-9},
@@ -136,7 +136,7 @@ TEST_CASE("a mode has no forced response beside it where the excitation does not
   CHECK(std::isnan(higher.points.front().synthesis.level));
 }
 
-TEST_CASE("beside an undamped mode the level is 0, and the response opens around it") {
+TEST_CASE("next to an undamped mode the level is 0, and the response opens around it") {
   const ResponseBranch branch = mode(oscillator(cubic, 1), 1, 0.5, 5);
   for (const ResponsePoint& point : branch.points) {
     const double A = point.amplitude, square = 1 + 0.75 * A * A;
@@ -150,7 +150,7 @@ TEST_CASE("beside an undamped mode the level is 0, and the response opens around
   }
 }
 
-TEST_CASE("the peaks of the paper's oscillator lie beside those of its mode") {
+TEST_CASE("the peaks of the paper's oscillator lie next to those of its mode") {
   const scene::Scene s = scenes::paper(15);
   const double onset = onset_of_slip(s);
   const ResponseBranch branch = observables::nonlinear_modes(s, {1, 0.5 * onset, 50 * onset, 20}).front();

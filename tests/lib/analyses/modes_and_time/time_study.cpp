@@ -170,12 +170,12 @@ TEST_CASE("a study in time has a motion for each combination, and a stop keeps w
   REQUIRE(all.size() == 6);
   CHECK(all[3].set == std::vector<std::pair<std::string, double>>{{"damper.normal_load", 2}, {"c.value", 2}});
   CHECK(all[3].parameters.front().first == "m.value");
-  long told = 0;
+  long reported = 0;
   const auto some = motions([&](const observables::Progress& progress) {
     CHECK(std::string(progress.item) == "motion");
     CHECK(progress.branches == 6);
     CHECK(progress.share_done <= 1);
-    ++told;
+    ++reported;
     return progress.branch < 1 || progress.points < 5;
   });
   REQUIRE(some.size() == 2);
@@ -183,7 +183,7 @@ TEST_CASE("a study in time has a motion for each combination, and a stop keeps w
   CHECK(some[1].status == Status::stopped);
   CHECK(some[1].stop.reason == observables::reasons::user);
   CHECK(some[1].periods == 6);
-  CHECK(told > 6);
+  CHECK(reported > 6);
   for (const auto method : {TimeMethod::shooting, TimeMethod::newmark_shooting, TimeMethod::event_driven}) {
     settings.method = method;
     const auto none = motions([](const observables::Progress&) { return false; });

@@ -1,4 +1,4 @@
-// Disturbed motions in time beside the multipliers of harmonic balance. ARCSLIP_SCENES is the number of
+// Disturbed motions in time next to the multipliers of harmonic balance. ARCSLIP_SCENES is the number of
 // random structures; by default 12.
 //
 // The motion disturbed is the exact one next to the response: by shooting from the motion of 61 harmonics,
@@ -128,7 +128,7 @@ scene::Scene duffing() {
 }  // namespace
 
 TEST_CASE(
-    "a motion beside the unstable response of a Duffing oscillator leaves it at its rate for a stable one") {
+    "a motion next to the unstable response of a Duffing oscillator leaves it at its rate for a stable one") {
   // Three responses at 1.2 rad/s, the middle one unstable.
   const auto s = duffing();
   const auto branches = observables::frequency_response(s, {1.0, 1.4, true});
@@ -207,7 +207,7 @@ TEST_CASE("the growth of a disturbance is that of a known linear map") {
   CHECK(observables::growth_of(course(0.5, 0, 1)) == 0);
 }
 
-TEST_CASE("a start where there is no response is refused, and a stop is told") {
+TEST_CASE("a start where there is no response is refused, and a stop is reported") {
   scene::Scene s = scenes::paper(5, 1);
   scene::set(s, "c.value", 0);
   const double resonance = std::sqrt(17890 / 1.24) / scenes::hertz;

@@ -1,4 +1,4 @@
-// Full rings of sectors from matrices, beside one sector and beside the same rings of masses and springs.
+// Full rings of sectors from matrices, next to one sector and next to the same rings of masses and springs.
 #include "catch.hpp"
 #include "contains.hpp"
 
@@ -189,7 +189,8 @@ Sector long_sector() {
 
 }  // namespace
 
-TEST_CASE("reduced copies move as whole ones, within the error that is told, also where each is another") {
+TEST_CASE(
+    "reduced copies move as whole ones, within the error that is reported, also where each is another") {
   const Folder folder = files(long_sector(), "name,row\ntip.z,30\nhub,1\n");
   for (const bool mistuned : {false, true}) {
     Given given{5, 2, "", "", friction, "", 3};
@@ -208,8 +209,9 @@ TEST_CASE("reduced copies move as whole ones, within the error that is told, als
     if (!mistuned) CHECK(model.dofs == 5 * (3 + model.reduction->coordinates));
     CHECK(contains(observables::prepare(less, {}), "of 30 rows was reduced to 2 of them and "));
     CHECK(contains(observables::prepare(less, {}), " coordinates in each of 5 copies; error"));
-    const auto told = studies::header(less).reduction;
-    CHECK(std::any_of(told.begin(), told.end(), [](const auto& each) { return each.key == "copies"; }));
+    const auto reported = studies::header(less).reduction;
+    CHECK(
+        std::any_of(reported.begin(), reported.end(), [](const auto& each) { return each.key == "copies"; }));
     double largest = 0;
     for (const double w : {0.6, 1.4, 2.2, 3.0, 4.5})
       largest = std::max(largest, difference(scenes::response_at(less, w), scenes::response_at(whole, w)));

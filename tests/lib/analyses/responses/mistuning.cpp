@@ -1,5 +1,5 @@
 // Amplification by mistuning of linear rings with one degree of freedom per sector and equal masses and
-// dampers, beside the limit of Whitehead (1966), (1 + sqrt N)/2.
+// dampers, next to the limit of Whitehead (1966), (1 + sqrt N)/2.
 //
 // Z = K - w^2 m + i w c with a real symmetric K of any stiffnesses is normal, with eigenvalues on a line at
 // the distance w c from 0: Z^-1 = (1 + U)/(2 i w c) with a unitary U. So under a wave of forces of size F a

@@ -59,7 +59,7 @@ TEST_CASE("at 20 Hz the response over the load has one maximum, above both respo
   CHECK(events(branch, "fold").empty());
   const auto maxima = events(branch, "maximum");
   CHECK(maxima.size() == 1);
-  // Beside full stick, from where on the load moves nothing, the amplitude may pass a minimum by some 1e-7.
+  // Next to full stick, from where on the load moves nothing, the amplitude may pass a minimum by some 1e-7.
   const auto minima = events(branch, "minimum");
   CHECK(minima.size() <= 1);
   for (const auto& event : minima) CHECK(event.point.amplitude < branch.points.back().amplitude);
@@ -67,15 +67,15 @@ TEST_CASE("at 20 Hz the response over the load has one maximum, above both respo
     for (const auto& event : events(branch, kind)) {
       CAPTURE(kind, event.point.over);
       for (double shift : {-1e-3, 1e-3}) {
-        const double beside =
+        const double nearby =
             scenes::response_at(scenes::paper(15, event.point.over * (1 + shift)), 20).amplitude;
-        CHECK((event.kind == "maximum") == (beside < event.point.amplitude));
+        CHECK((event.kind == "maximum") == (nearby < event.point.amplitude));
       }
     }
 }
 
 TEST_CASE("the Jenkins and Duffing oscillator folds in the load where its describing function does") {
-  // Below the first fold and above the second there are two responses of large amplitude beside the small
+  // Below the first fold and above the second there are two responses of large amplitude next to the small
   // one.
   const auto s = scenes::duffing_jenkins();
   const double first = 0.9169049045, second = 1.6884695203;

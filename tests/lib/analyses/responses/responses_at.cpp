@@ -269,16 +269,16 @@ std::vector<double> folds(const Duffing& of, double from, double to) {
 
 }  // namespace
 
-TEST_CASE("beside a fold as many responses are found as the closed form has") {
-  const std::uint64_t count = responses_at::beside_folds.count();
+TEST_CASE("next to a fold as many responses are found as the closed form has") {
+  const std::uint64_t count = responses_at::near_folds.count();
   std::uint64_t tried = 0;
   for (std::uint64_t seed = 0; tried < count; ++seed) {
     test_random::Random random(seed);
     const Duffing of = any_duffing(random);
     for (const double fold : folds(of, 1.0, 6.0)) {
-      const double beside = random.logarithmic(1e-8, 1e-2) * (random.one_in(2) ? 1 : -1),
-                   w = fold * (1 + beside);
-      CAPTURE(seed, of.c, of.b, of.force, fold, beside);
+      const double nearby = random.logarithmic(1e-8, 1e-2) * (random.one_in(2) ? 1 : -1),
+                   w = fold * (1 + nearby);
+      CAPTURE(seed, of.c, of.b, of.force, fold, nearby);
       const auto found = at(scene_of(of), w);
       CHECK(static_cast<int>(found.size()) == of.responses(w));
       std::set<long> distinct;
@@ -304,10 +304,10 @@ TEST_CASE("next to a fold of several masses both responses of the fold are found
     "elements": [{"name": "n1", "type": "cubic_spring", "between": ["a", "b"], "stiffness": 0.001},
                  {"name": "n2", "type": "cubic_spring", "between": ["b", "c"], "stiffness": 0.001}],
     "excitation": [{"name": "f", "at": "a", "cosine": 0.005}], "response": {"at": "a"}, "harmonics": {"order": 5}})");
-  CHECK(at(s, 1.00251174).size() == 3);  // 3e-7 beside the fold
+  CHECK(at(s, 1.00251174).size() == 3);  // 3e-7 next to the fold
 }
 
-TEST_CASE("a response in which a contact sticks throughout is found once, and tells no C++") {
+TEST_CASE("a response in which a contact sticks throughout is found once, and reports no C++") {
   const scene::Scene s = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "Hz",
     "structure": {"dofs": ["x1", "y1", "x2", "y2", "xd", "yd"],
       "masses": [{"name": "m_x1", "at": "x1", "value": 1}, {"name": "m_y1", "at": "y1", "value": 1},

@@ -1,4 +1,4 @@
-// One sector of a ring beside the full ring of the same scene.
+// One sector of a ring next to the full ring of the same scene.
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"

@@ -1,4 +1,4 @@
-// Sectors from matrices with rows on both faces, beside the same rings of masses and springs.
+// Sectors from matrices with rows on both faces, next to the same rings of masses and springs.
 #include "catch.hpp"
 #include "contains.hpp"
 #include "environment.hpp"
@@ -275,7 +275,7 @@ TEST_CASE("what is kept of a closed ring goes with its scene") {
   CHECK(kept.expired());
 }
 
-TEST_CASE("what is wrong with the faces of a sector is told") {
+TEST_CASE("what is wrong with the faces of a sector is reported") {
   const Folder folder = files(two_faces(), names);
   folder.write("faces.csv", pair);
   const std::string faces = "/structure/matrices/faces";
@@ -325,7 +325,7 @@ TEST_CASE("what is wrong with the faces of a sector is told") {
         "found a motion of the ground under a sector with \"faces\", must be the forces M r");
   std::string alone = with_faces({}, Ring::sector);
   alone.erase(alone.find("\"cyclic\""), alone.find("\"matrices\"") - alone.find("\"cyclic\""));
-  fault(alone, faces, "found the faces of a sector without \"cyclic\", must be beside it");
+  fault(alone, faces, "found the faces of a sector without \"cyclic\", must be next to it");
   std::string wrong = with_faces({}, Ring::sector);
   wrong.replace(wrong.find("\"faces.csv\""), 11, "3");
   fault(wrong, faces, "found 3 (a number), must be a string, the path of a CSV file of own,next");

@@ -219,7 +219,7 @@ TEST_CASE("branches by shooting go through several slips a period and through bo
   CHECK(slips_of[1] >= 2);
 }
 
-TEST_CASE("a branch by shooting that cannot be tells why") {
+TEST_CASE("a branch by shooting that cannot be says why") {
   const auto ends = [](const scene::Scene& s, const std::string& reason, const std::string& words) {
     const auto branch = shot(s, 0.5, 2);
     CHECK(branch.status == Status::failed);
@@ -415,7 +415,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("over a parameter, a branch by shooting that cannot be, or is stopped, tells why") {
+TEST_CASE("over a parameter, a branch by shooting that cannot be, or is stopped, says why") {
   const auto failed =
       shot_over(two_masses_and_stop(R"({"name": "s", "type": "cubic_spring", "at": "x1", "stiffness": 1})"),
                 "force.cosine", 0.1, 0.2, 0.6);

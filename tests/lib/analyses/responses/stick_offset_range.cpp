@@ -5,7 +5,7 @@
 #include "contains.hpp"
 #include "lib/hbm/scenes.hpp"
 #include "lib/laws/every_law.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 
 #include <arcslip/analyses/responses/responses_at.hpp>
 #include <arcslip/analyses/responses/stick_offset_range.hpp>
@@ -194,7 +194,7 @@ TEST_CASE("motions in time whose sliders begin anywhere stay within the range, a
     const double spread = range.amplitude_max - range.amplitude_min;
     CHECK(spread > 0.1 * range.amplitude_min);
 
-    const auto pair = beside_exact::balanced(s, w);
+    const auto pair = compared_with_exact::balanced(s, w);
     time::EventDriven integrator(pair.equation);
     const double period = pair.equation.period();
     const time::MotionState start = time::state_of(*pair.problem, pair.u, pair.p);

@@ -1,4 +1,4 @@
-// Linear coordinates that are fixed-interface modes, beside factorizations of the matrices.
+// Linear coordinates that are fixed-interface modes, next to factorizations of the matrices.
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
@@ -29,9 +29,7 @@ enum class Damping { none, proportional, few_dampers };
 scene::Scene chain(Damping damping, int length = chain_dofs) {
   scene::Scene s;
   const auto part = [](const std::string& name, const scene::PartType& type, scene::Direction along,
-                       double value) {
-    return scene::Part{name, &type, {std::move(along)}, {value}};
-  };
+                       double value) { return scene::Part{name, &type, {std::move(along)}, {value}}; };
   for (int i = 0; i < length; ++i) {
     const std::string n = std::to_string(i);
     s.dofs.push_back("x" + n);
@@ -200,11 +198,11 @@ TEST_CASE("with fixed-interface modes a structure on a moving ground is the same
     p[model::frequency] = omega;
     CHECK((modal.at(p, u) - direct.at(p, u)).cwiseAbs().maxCoeff() < 1e-9);
   }
-  p[modal.model->springs[4].parameter] *= 3;  // a change beside the modes
+  p[modal.model->springs[4].parameter] *= 3;  // a change next to the modes
   CHECK((modal.at(p, u) - direct.at(p, u)).cwiseAbs().maxCoeff() < 1e-9);
 }
 
-TEST_CASE("parts that change beside the modes are exact, a few by their rank and many by a factorization") {
+TEST_CASE("parts that change next to the modes are exact, a few by their rank and many by a factorization") {
   const scene::Scene s = chain(Damping::few_dampers);
   Structure modal(s, true), direct(s, false);
   const Vector u = Vector::Random(modal.coordinates.unknowns * modal.model->harmonics.size());
@@ -224,7 +222,7 @@ TEST_CASE("parts that change beside the modes are exact, a few by their rank and
   check();
 }
 
-TEST_CASE("undamped modes at resonance are a pole, and none beside it") {
+TEST_CASE("undamped modes at resonance are a pole, and none next to it") {
   scene::Scene s = chain(Damping::none);
   s.elements.clear();
   s.elements.push_back({"e", &elements::jenkins(), {{{chain_dofs - 1, 1.0}}}, {1e3, 0.5, 2.0}});

@@ -98,7 +98,7 @@ TEST_CASE("a large sector responds the same whether its matrices are taken as sp
 TEST_CASE("coordinates that no element sees are links of the structure and nothing else") {
   constexpr int dofs = 60;
   const model::Model model = long_sector(dofs, 7, 2, true, true, false);
-  // Each mass with its neighbours, and six links to the next sector and back beside that of the gyroscopic
+  // Each mass with its neighbours, and six links to the next sector and back next to that of the gyroscopic
   // one.
   CHECK(nonzeros(model) == dofs + 2 * (dofs - 1) + 2 * 6 + 2);
 }

@@ -1,5 +1,5 @@
-// Matrices of a sector that reach into the next one, beside the same parts in the scene and beside sums entry
-// by entry.
+// Matrices of a sector that reach into the next one, next to the same parts in the scene and next to sums
+// entry by entry.
 #include "catch.hpp"
 
 #include "lib/hbm/complex_amplitude.hpp"

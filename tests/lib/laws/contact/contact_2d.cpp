@@ -171,10 +171,10 @@ TEST_CASE("a contact along one line of motion, just touched, has few phases and 
         u.tail(h.size()) = slope * u.head(h.size());
         const auto turns = reversals.find(u.tail(h.size()));
         for (const auto& turn : turns)
-          for (const double beside : {0.0, 1e-16, -1e-16, 1e-13, -1e-13, 1e-9, -1e-9}) {
-            const std::vector<double> fields = {1, 1, friction, -turn.x * (1 + beside)};
+          for (const double nearby : {0.0, 1e-16, -1e-16, 1e-13, -1e-13, 1e-9, -1e-9}) {
+            const std::vector<double> fields = {1, 1, friction, -turn.x * (1 + nearby)};
             const Force at = evaluate(elements::contact_2d(), h, u, fields);
-            CAPTURE(seed, slope, friction, turn.x, beside);
+            CAPTURE(seed, slope, friction, turn.x, nearby);
             REQUIRE(at.F.allFinite());
             REQUIRE(at.J.allFinite());
             REQUIRE(at.friction.slip_onsets.size() <= 2 * turns.size());

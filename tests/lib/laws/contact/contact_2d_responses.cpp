@@ -1,7 +1,7 @@
 #include "catch.hpp"
 
 #include "lib/laws/contact/contacts.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
 #include <arcslip/analyses/responses/frequency_response.hpp>
@@ -44,7 +44,7 @@ TEST_CASE("a contact under a load that varies comes to the motions of a march wi
     CHECK(std::abs(stepped.elements[0].open_percent / 100 - each.open) < 1e-3);
     double last = 1;
     for (const int order : {3, 7, 15, 27, 55, 101}) {
-      const auto balanced = beside_exact::balanced(contacts::line_pad(order, each.f_t, each.f_n), 95);
+      const auto balanced = compared_with_exact::balanced(contacts::line_pad(order, each.f_t, each.f_n), 95);
       elements::LargestValue largest(balanced.problem->harmonics());
       last = std::abs(largest.of(balanced.u.head(2 * order + 1)) / exact.amplitude - 1);
       CAPTURE(order, last);

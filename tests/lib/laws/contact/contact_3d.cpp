@@ -96,7 +96,7 @@ TEST_CASE("a slider sticks throughout iff one place is within every disc, and re
     expected.tail(c).setZero();
     CHECK((at.F - expected).norm() < 1e-12);
   }
-  // Any motion: no place beside the centre has a smaller excess, over many instants.
+  // Any motion: no place next to the centre has a smaller excess, over many instants.
   elements::StickCentre centre(h);
   elements::Disc disc(h);
   for (unsigned seed = 1; seed <= 40; ++seed) {
@@ -122,11 +122,11 @@ TEST_CASE("a slider sticks throughout iff one place is within every disc, and re
     const double small = 1e-12;
     Vector shrunk = small * u;
     for (const Eigen::Index mean : {Eigen::Index{0}, c, 2 * c}) shrunk[mean] = u[mean];
-    elements::StickCentre beside(h);
+    elements::StickCentre nearby(h);
     disc.set(shrunk.head(c), shrunk.segment(c, c), shrunk.tail(c));
-    beside.find(disc);
+    nearby.find(disc);
     MatrixXd same(2, 3 * c);
-    beside.derivative(same);
+    nearby.derivative(same);
     CHECK((same - dw).cwiseAbs().maxCoeff() < 1e-6);
     if (seed % 4 == 0) continue;
     const auto rest = [&](const Vector& at) {
@@ -239,7 +239,7 @@ TEST_CASE("a contact in a plane stays finite and dissipates at every extreme") {
           }
 }
 
-TEST_CASE("motions that are almost straight or far beyond the disc end, and overflow is told") {
+TEST_CASE("motions that are almost straight or far beyond the disc end, and overflow is reported") {
   const elements::Harmonics h{4, false};
   const Eigen::Index c = h.size();
   for (const double size : {1.0, 1e3, 1e6, 1e9, 1e12, 1e15, 1e80})

@@ -73,7 +73,7 @@ TEST_CASE("at a birth of slip in a plane the Jacobian jumps along the corner's g
     const auto jacobian = [&](double side) {
       return evaluate(elements::contact_3d(), h, change.motion + side * dh / dh.squaredNorm(), fields).J;
     };
-    // Beside the corner the Jacobian changes with the root of h, which two distances take away.
+    // Next to the corner the Jacobian changes with the root of h, which two distances take away.
     const auto limit = [&](double side) -> MatrixXd {
       return 2 * jacobian(side * 1e-10) - jacobian(side * 4e-10);
     };

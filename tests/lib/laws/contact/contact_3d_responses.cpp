@@ -1,7 +1,7 @@
 #include "catch.hpp"
 
 #include "lib/laws/contact/contacts.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 
 #include <arcslip/analyses/curves/curves.hpp>
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
@@ -18,7 +18,7 @@ using namespace arcslip;
 TEST_CASE("the error of harmonic balance with slip in a plane falls as the third power of the order") {
   for (const double f : {8.0, 25.0}) {
     CAPTURE(f);
-    const auto fine = beside_exact::balanced(contacts::plane_pad(61, f, 8), 95);
+    const auto fine = compared_with_exact::balanced(contacts::plane_pad(61, f, 8), 95);
     elements::LargestValue finest(fine.problem->harmonics());
     const double exact = finest.of(fine.u.head(fine.problem->harmonics().size()));
     std::array<double, 2> stepped;
@@ -33,7 +33,7 @@ TEST_CASE("the error of harmonic balance with slip in a plane falls as the third
     // Of second order in the steps.
     CHECK(std::abs((4 * stepped[1] - stepped[0]) / 3 / exact - 1) < 1e-5);
     for (const int order : {5, 9, 17, 31}) {
-      const auto balanced = beside_exact::balanced(contacts::plane_pad(order, f, 8), 95);
+      const auto balanced = compared_with_exact::balanced(contacts::plane_pad(order, f, 8), 95);
       elements::LargestValue largest(balanced.problem->harmonics());
       CAPTURE(order);
       CHECK(std::abs(largest.of(balanced.u.head(2 * order + 1)) / exact - 1) < 0.5 * std::pow(order, -3.0));

@@ -1,10 +1,10 @@
-// What contacts do over the period, beside their shares, closed forms and the exact march in time.
+// What contacts do over the period, in addition to their shares, closed forms and the exact march in time.
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
 #include "lib/laws/contact/contacts.hpp"
 #include "lib/laws/every_law.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 
 #include <arcslip/laws/contact/contact_2d.hpp>
 #include <arcslip/laws/contact/contact_3d.hpp>
@@ -261,11 +261,11 @@ TEST_CASE("each contact does at each instant what it does in the exact motion in
                         {stop(0.5, true), 1.1, 1e-5, 4},   {stop(-0.3, false), 1.1, 1e-5, 2}};
   for (const Case& each : cases) {
     CAPTURE(each.scene.elements[0].type->name(), each.frequency, each.intervals);
-    const auto pair = beside_exact::balanced(each.scene, each.frequency);
+    const auto pair = compared_with_exact::balanced(each.scene, each.frequency);
     const auto at = pair.problem->hbm_evaluator();
     REQUIRE(at->move_to(pair.u, pair.p, continuation::Needs::residual) == continuation::Evaluated::ok);
     const Intervals found = contact_of(at->element(0));
-    const Intervals wanted = marched(beside_exact::difference(pair, 3).exact, 0, pair.equation.omega);
+    const Intervals wanted = marched(compared_with_exact::difference(pair, 3).exact, 0, pair.equation.omega);
     REQUIRE(found.size() == wanted.size());
     if (each.intervals > 0) CHECK(found.size() == each.intervals);
     for (std::size_t i = 0; i < found.size(); ++i) {

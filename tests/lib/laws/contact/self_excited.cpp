@@ -83,7 +83,7 @@ TEST_CASE("slip under a load that varies makes the stiffness unsymmetric, and tw
 }
 
 TEST_CASE(
-    "an unstable periodic motion is told as unstable, by the multiplier with which the march leaves it") {
+    "an unstable periodic motion is reported as unstable, by the multiplier with which the march leaves it") {
   const scene::Scene s = pad(5);
   const auto motion = observables::motion_in_time(s, {.frequency = frequency});
   CAPTURE(motion.stop.message);
@@ -136,7 +136,7 @@ TEST_CASE("a march that does not contract ends at its limit of periods, and name
     CHECK(motion.status == observables::Status::stopped);
     CHECK(motion.stop.reason == observables::reasons::period_limit);
     CHECK(motion.stop.value > 0.1);
-    CHECK(motion.stop.message.find("shooting, which tells whether it is stable") != std::string::npos);
+    CHECK(motion.stop.message.find("shooting, which says whether it is stable") != std::string::npos);
     // Bounded all the same: the contact opens, or sticks.
     CHECK(motion.amplitude < 10);
   }

@@ -110,7 +110,7 @@ TEST_CASE("the error of the samples is below that of the harmonics left out") {
   }
 }
 
-TEST_CASE("with a large exponent smooth hysteresis becomes a friction damper beside a spring") {
+TEST_CASE("with a large exponent smooth hysteresis becomes a friction damper next to a spring") {
   // |z| < z_y is reached to within about z_y/n.
   const Harmonics h{31, true};
   const double A = 0.9, z_y = 0.4;
@@ -151,7 +151,7 @@ TEST_CASE("smooth hysteresis follows its state equation in harmonics as it does 
     CHECK(std::abs(motion.energy.friction / dissipated - 1) < 1e-3);
     CHECK(std::abs(responses[0].point.energy_friction / dissipated - 1) < 1e-10);
     CHECK(responses[0].point.elements[0].energy == responses[0].point.energy_friction);
-    // The series of the force's harmonics beside the law's own force, at each angle of the history.
+    // The series of the force's harmonics next to the law's own force, at each angle of the history.
     const auto& history = responses[0].history.elements[0];
     for (std::size_t i = 0; i < history.force.size(); ++i)
       CHECK(std::abs(history.series[i] - history.force[i]) < 1e-3);

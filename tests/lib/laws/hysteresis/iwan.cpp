@@ -223,7 +223,7 @@ TEST_CASE("residuals with an iwan element have the Jacobian of their differences
     }
 }
 
-TEST_CASE("faults of the options are told, and fields are those of the distribution") {
+TEST_CASE("faults of the options are reported, and fields are those of the distribution") {
   const auto fault = [](const std::string& element) {
     try {
       iwan_laws::oscillator(element);
@@ -247,7 +247,7 @@ TEST_CASE("faults of the options are told, and fields are those of the distribut
   CHECK(fault(start + R"("table", "table": [[1, 0]])") ==
         "/elements/0/table/0/1: found 0, must be above 0 N");
   CHECK(fault(start + R"("uniform", "stiffness": 1, "slip_force": 1, "table": [[1, 1]])") ==
-        "/elements/0/table: found a table beside another \"distribution\" than \"table\"");
+        "/elements/0/table: found a table next to another \"distribution\" than \"table\"");
   CHECK(fault(start + R"("four-parameter", "stiffness": 1, "slip_force": 1, "exponent": -1, "beta": 0)") ==
         "/elements/0/exponent: found -1, must be above -1 and at most 0");
   CHECK(fault(start + R"("uniform", "stiffness": 1, "slip_force": 1, "beta": 0)").substr(0, 16) ==

@@ -123,7 +123,7 @@ TEST_CASE("sampling converges to the exact force as samples^-2") {
   }
 }
 
-TEST_CASE("sampled friction tells a slip phase up to each extreme, of any length") {
+TEST_CASE("sampled friction reports a slip phase up to each extreme, of any length") {
   // From all slip to slip at one sample: of 1.7 cos(theta - 0.3) + 0.4 cos 2 theta (one extreme of either
   // kind) and of its odd part.
   const double apart = 2 * pi / 128;

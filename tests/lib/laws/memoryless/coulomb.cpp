@@ -197,7 +197,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a motion that stops is told from one that does not at Den Hartog's boundary") {
+TEST_CASE("a motion that stops is distinguished from one that does not at Den Hartog's boundary") {
   int found_with_stops = 0;
   for (const double r : {0.6, 0.8, 1.2, 1.6}) {
     const double boundary = DenHartog{r}.stops_from();
@@ -267,7 +267,7 @@ TEST_CASE("with stops rigid friction is flagged, and near the motion of a stiff 
   CHECK(point.amplitude == Approx(motion.amplitude).epsilon(0.012));
 }
 
-TEST_CASE("friction that holds a mass throughout is told, without a response") {
+TEST_CASE("friction that holds a mass throughout is reported, without a response") {
   const auto found = observables::point_responses(oscillator(rigid(1.2), 9), {.frequency = 0.8});
   REQUIRE(found.size() == 1);
   CHECK(found[0].status == observables::Status::failed);
@@ -335,7 +335,7 @@ TEST_CASE("in time rigid friction is refused by every method, with a reason") {
   }
 }
 
-TEST_CASE("in a chain, what is told to stop sticks as a stiff slider in time, and what is not does not") {
+TEST_CASE("in a chain, what is reported to stop sticks as a stiff slider in time, and what is not does not") {
   const auto chain = [](const std::string& friction, double load, double between, int order) {
     const auto element = [&](const std::string& place, double value) {
       return place + R"(, "friction_coefficient": 1, "normal_load": )" + number(value) + friction + "}";

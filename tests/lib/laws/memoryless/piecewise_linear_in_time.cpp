@@ -1,11 +1,11 @@
-// Structures with piecewise linear springs: free oscillations in closed form, and harmonic balance beside the
-// exact motion in time. ARCSLIP_SCENES is how many random structures of each spring; 100 by default.
+// Structures with piecewise linear springs: free oscillations in closed form, and harmonic balance next to
+// the exact motion in time. ARCSLIP_SCENES is how many random structures of each spring; 100 by default.
 #include "catch.hpp"
 
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
 #include "lib/laws/memoryless/piecewise_linear_laws.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 #include "random.hpp"
 
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
@@ -77,7 +77,7 @@ void check_random(const AddSpring& spring) {
         seed, seed % 2 == 0 ? random_scenes::Excitation::first : random_scenes::Excitation::first_and_second);
     const auto& window = scenes::window(s);
     const double at = window.from + (seed % 4 < 2 ? 0.3 : 0.7) * (window.to - window.from);
-    const auto free = beside_exact::balanced(s, at);
+    const auto free = compared_with_exact::balanced(s, at);
     const auto amplitudes = time::dof_coefficients(*free.problem, free.u, free.p);
     Random random(seed);
     const int dof = random.count(0, static_cast<int>(s.dofs.size()) - 1);
@@ -87,9 +87,10 @@ void check_random(const AddSpring& spring) {
     s.elements.push_back(std::move(part));
     CAPTURE(seed);
     s.harmonics.order = 41;
-    const auto coarse = beside_exact::difference(beside_exact::balanced(s, at), 500);
+    const auto coarse = compared_with_exact::difference(compared_with_exact::balanced(s, at), 500);
     s.harmonics.order = 81;
-    const double fine = beside_exact::difference(beside_exact::balanced(s, at), 500).displacement;
+    const double fine =
+        compared_with_exact::difference(compared_with_exact::balanced(s, at), 500).displacement;
     CHECK(std::abs(coarse.exact.period.energy.defect()) < 1e-11 * coarse.exact.period.energy.input);
     CHECK(coarse.displacement < 1e-4);
     CHECK(fine < 5e-6);

@@ -137,7 +137,7 @@ TEST_CASE("the terms of a potential are parameters, which are set and written, w
   CHECK(scene::json_schema(test_catalogue::whole()).find("\"potential\"") != std::string::npos);
 }
 
-TEST_CASE("a potential that cannot be is told where it stands") {
+TEST_CASE("a potential that cannot be is reported where it stands") {
   for (const auto& [potential, fault] :
        {std::pair{std::string("[]"),
                   "/elements/0/potential: found a list of 0 terms, must be a list of at least one"},

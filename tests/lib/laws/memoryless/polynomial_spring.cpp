@@ -143,7 +143,7 @@ TEST_CASE("coefficients of the powers in a scene are parameters, which are set, 
     CHECK_THROWS_AS(polynomial_powers(wrong), std::invalid_argument);
 }
 
-TEST_CASE("coefficients of a polynomial that cannot be are told where they stand") {
+TEST_CASE("coefficients of a polynomial that cannot be are reported where they stand") {
   for (const auto& [coefficients, fault] :
        {std::pair{std::string(R"({"0": 1})"),
                   R"(/elements/0/coefficients/0: found the power "0", must be an integer from 1 to 9)"},

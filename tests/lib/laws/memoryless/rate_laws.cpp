@@ -187,7 +187,7 @@ TEST_CASE("a quadratic damper bounds the resonance that it takes part in, and no
   const auto bounded = observables::frequency_response(alone, scenes::window(alone));
   REQUIRE(bounded.size() == 1);
   CHECK(bounded[0].status == observables::Status::complete);
-  // Beside a second mass with a slider too weak for its force.
+  // Next to a second mass with a slider too weak for its force.
   const scene::Scene two = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
     "structure": {"dofs": ["x", "y"],
       "masses": [{"name": "mx", "at": "x", "value": 1}, {"name": "my", "at": "y", "value": 1}],

@@ -23,10 +23,10 @@ inline std::string header(std::string_view says = "MATLAB 5.0 MAT-file", char ve
   return text + std::string(8, '\0') + std::string{'\0', version} + "IM";
 }
 
-/// told: the length that it says it has.
-inline std::string element(std::uint32_t type, const std::string& data, std::uint32_t told) {
+/// reported: the length that it says it has.
+inline std::string element(std::uint32_t type, const std::string& data, std::uint32_t reported) {
   const std::string padding((8 - data.size() % 8) % 8, '\0');
-  return bytes_of<std::uint32_t>({type, told}) + data + padding;
+  return bytes_of<std::uint32_t>({type, reported}) + data + padding;
 }
 inline std::string element(std::uint32_t type, const std::string& data) {
   return element(type, data, static_cast<std::uint32_t>(data.size()));

@@ -1,4 +1,4 @@
-// MATLAB files, written by matio: beside the same matrix in Matrix Market format, damaged, and mutated.
+// MATLAB files, written by matio: next to the same matrix in Matrix Market format, damaged, and mutated.
 #include "catch.hpp"
 #include "contains.hpp"
 
@@ -170,7 +170,7 @@ TEST_CASE("a matrix from a MATLAB file is that of the Matrix Market file, to the
   check_same(read(path, "full"), wanted);
   check_same(read(path, "unsorted"), wanted);
   CHECK(fault(path) ==
-        "\"A.mat\": found the variables \"K\", \"full\", \"unit\", \"unsorted\", must be told which: "
+        "\"A.mat\": found the variables \"K\", \"full\", \"unit\", \"unsorted\", must say which: "
         "{\"file\": ..., "
         "\"variable\": ...}");
   CHECK(
@@ -188,7 +188,7 @@ TEST_CASE("the only variable of a MATLAB file needs no name") {
   CHECK(fault(path, "M") == "\"A.mat\": found no variable \"M\", must be \"K\"");
 }
 
-TEST_CASE("variables of a MATLAB file that are no real matrix of doubles are told") {
+TEST_CASE("variables of a MATLAB file that are no real matrix of doubles are reported") {
   const Kind kind = GENERATE(Kind::v5, Kind::v5_compressed, Kind::v73);
   const Folder folder;
   const std::string path = folder / "A.mat", must = ", must be a real matrix of doubles, sparse or full";
@@ -207,32 +207,22 @@ TEST_CASE("variables of a MATLAB file that are no real matrix of doubles are tol
   CHECK(of([](MatFile& file) { file.text("A"); }) == at + "found characters" + must);
   CHECK(of([](MatFile& file) { file.structure("A"); }) == at + "found a struct" + must);
   CHECK(of([](MatFile& file) { file.cell("A"); }) == at + "found a cell array" + must);
-  CHECK(of([](MatFile& file) {
-          file.full("A", {2, 2, 2}, std::vector<double>(8, 1.0));
-        }) == at + "found an array of 3 dimensions" + must);
+  CHECK(of([](MatFile& file) { file.full("A", {2, 2, 2}, std::vector<double>(8, 1.0)); }) ==
+        at + "found an array of 3 dimensions" + must);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK(contains(of([&](MatFile& file) {
-                   file.full("A", {2, 2}, {1, 0, nan, 1});
-                 }),
+  CHECK(contains(of([&](MatFile& file) { file.full("A", {2, 2}, {1, 0, nan, 1}); }),
                  "nan in row 1, column 2, must be a finite number"));
-  CHECK(contains(of([&](MatFile& file) {
-                   file.sparse("A", 2, {0, 1}, {0, 1, 2}, {1, -HUGE_VAL});
-                 }),
+  CHECK(contains(of([&](MatFile& file) { file.sparse("A", 2, {0, 1}, {0, 1, 2}, {1, -HUGE_VAL}); }),
                  "-inf in row 2, column 2, must be a finite number"));
-  CHECK(of([](MatFile& file) {
-          file.sparse("A", 2, {0, 0, 1}, {0, 2, 3}, {1, 1, 1});
-        }) == at + "found the entry in row 1, column 1 twice");
-  CHECK(contains(of([](MatFile& file) {
-                   file.sparse("A", 2, {0, 5}, {0, 1, 2}, {1, 1});
-                 }),
+  CHECK(of([](MatFile& file) { file.sparse("A", 2, {0, 0, 1}, {0, 2, 3}, {1, 1, 1}); }) ==
+        at + "found the entry in row 1, column 1 twice");
+  CHECK(contains(of([](MatFile& file) { file.sparse("A", 2, {0, 5}, {0, 1, 2}, {1, 1}); }),
                  "found the row 6 in column 2, where it has 2 rows; the file may be damaged"));
-  CHECK(contains(of([](MatFile& file) {
-                   file.sparse("A", 200'000'000, {0, 1}, {0, 1, 2}, {1, 1});
-                 }),
+  CHECK(contains(of([](MatFile& file) { file.sparse("A", 200'000'000, {0, 1}, {0, 1, 2}, {1, 1}); }),
                  "found 200000000 rows and 2 columns, must have at most 100000000 of each"));
 }
 
-TEST_CASE("files that are no MATLAB file of version 5 or 7.3 are told") {
+TEST_CASE("files that are no MATLAB file of version 5 or 7.3 are reported") {
   const Folder folder;
   const std::string path = folder / "A.mat";
   const auto of = [&](const std::string& text) {
@@ -248,7 +238,7 @@ TEST_CASE("files that are no MATLAB file of version 5 or 7.3 are told") {
   CHECK(contains(fault(path), "found no variable"));
 }
 
-TEST_CASE("a MATLAB file that is cut off anywhere is told, and never read in part") {
+TEST_CASE("a MATLAB file that is cut off anywhere is reported, and never read in part") {
   const Kind kind = GENERATE(Kind::v5, Kind::v5_compressed, Kind::v73);
   const Folder folder;
   MatFile(folder / "whole.mat", kind).sparse("K", 4, ir, jc, values);

@@ -109,10 +109,10 @@ TEST_CASE("a MATLAB file whose data are in another file is refused") {
     H5Dclose(variable(file, "K", creation));
     H5Pclose(creation);
   });
-  const std::string told =
+  const std::string reported =
       "\"A.mat\", variable \"K\": found data that are in another file, must hold its data itself";
-  CHECK(fault_in(path) == told);
-  CHECK(fault_in(path, "M") == told);  // whichever is asked for
+  CHECK(fault_in(path) == reported);
+  CHECK(fault_in(path, "M") == reported);  // whichever is asked for
 }
 
 TEST_CASE("a MATLAB file with a link to another file is refused, which is not opened") {
@@ -121,10 +121,10 @@ TEST_CASE("a MATLAB file with a link to another file is refused, which is not op
   const bool is_fifo = GENERATE(true, false);
   if (is_fifo) REQUIRE(::mkfifo((folder / "other").c_str(), 0600) == 0);
   if (!is_fifo) write_v73(folder / "other", [](hid_t file) { H5Dclose(variable(file, "K")); });
-  const std::string told = ": found a link to another file, must hold its data itself";
+  const std::string reported = ": found a link to another file, must hold its data itself";
   write_v73(path, [&](hid_t file) { H5Lcreate_external("other", "K", file, "K", H5P_DEFAULT, H5P_DEFAULT); });
-  CHECK(fault_in(path) == "\"A.mat\", variable \"K\"" + told);
-  CHECK(fault_in(path, "M") == "\"A.mat\", variable \"K\"" + told);
+  CHECK(fault_in(path) == "\"A.mat\", variable \"K\"" + reported);
+  CHECK(fault_in(path, "M") == "\"A.mat\", variable \"K\"" + reported);
   // Below a group, and by a link of the file itself.
   write_v73(path, [&](hid_t file) {
     const hid_t group = H5Gcreate2(file, "S", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
@@ -132,7 +132,7 @@ TEST_CASE("a MATLAB file with a link to another file is refused, which is not op
     H5Lcreate_soft("/S/ir", file, "K", H5P_DEFAULT, H5P_DEFAULT);
     H5Gclose(group);
   });
-  CHECK(fault_in(path) == "\"A.mat\", variable \"S\"" + told);
+  CHECK(fault_in(path) == "\"A.mat\", variable \"S\"" + reported);
 }
 
 TEST_CASE("a MATLAB file that hides a link to another file opens none") {
@@ -204,28 +204,29 @@ TEST_CASE("sizes beyond what a short MATLAB file can hold take no memory and no 
     REQUIRE(text.size() < 1000);
     return fault_in(path);
   };
-  const auto both = [&](const std::string& body, std::uint32_t told, const std::string& wanted) {
+  const auto both = [&](const std::string& body, std::uint32_t reported, const std::string& wanted) {
     CAPTURE(wanted);
-    CHECK(contains(of(mat_bytes::header() + mat_bytes::packed(mat_bytes::element(14, body, told))), wanted));
+    CHECK(contains(of(mat_bytes::header() + mat_bytes::packed(mat_bytes::element(14, body, reported))),
+                   wanted));
     CHECK(contains(of(mat_bytes::header() + mat_bytes::element(14, body)), wanted));
   };
   const std::string one_row = mat_bytes::element(5, mat_bytes::bytes_of<std::int32_t>({0}));
   const std::string may = "the file may be damaged";
-  for (const std::uint32_t told : {2'000'000'000u, 0xfffffff8u, 500'000'000u}) {
-    CAPTURE(told);
+  for (const std::uint32_t reported : {2'000'000'000u, 0xfffffff8u, 500'000'000u}) {
+    CAPTURE(reported);
     const std::string rows = mat_bytes::description(5, 1, 4, 4, "K") +
-                             mat_bytes::element(5, mat_bytes::bytes_of<std::int32_t>({0}), told);
-    both(rows, told, may);
+                             mat_bytes::element(5, mat_bytes::bytes_of<std::int32_t>({0}), reported);
+    both(rows, reported, may);
     const std::string starts =
         mat_bytes::description(5, 1, 4, 4, "K") + one_row +
-        mat_bytes::element(5, mat_bytes::bytes_of<std::int32_t>({0, 1, 1, 1, 1}), told);
-    both(starts, told, may);
+        mat_bytes::element(5, mat_bytes::bytes_of<std::int32_t>({0, 1, 1, 1, 1}), reported);
+    both(starts, reported, may);
     const std::string values = mat_bytes::description(5, 1, 4, 4, "K") + one_row +
                                mat_bytes::element(5, mat_bytes::bytes_of<std::int32_t>({0, 1, 1, 1, 1})) +
-                               mat_bytes::element(9, mat_bytes::bytes_of<double>({1}), told);
-    both(values, told, may);
-    both(mat_bytes::description(5, 1, 4, 4, "K").substr(0, 32) + mat_bytes::element(1, "K", told), told,
-         "found");
+                               mat_bytes::element(9, mat_bytes::bytes_of<double>({1}), reported);
+    both(values, reported, may);
+    both(mat_bytes::description(5, 1, 4, 4, "K").substr(0, 32) + mat_bytes::element(1, "K", reported),
+         reported, "found");
   }
   both(mat_bytes::description(5, 1, 4, 90'000'000, "K") + one_row, 1000,
        "found 4 rows and 90000000 columns in a file of");

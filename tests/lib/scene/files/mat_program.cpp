@@ -98,15 +98,15 @@ TEST_CASE("what the program sends is the matrix") {
 
 TEST_CASE("without the program a MATLAB file is a fault that names it and where it was looked for") {
   const Environment none("ARCSLIP_MAT", nullptr), path("PATH", "relative:/nonexistent");
-  const std::string told = fault();
+  const std::string reported = fault();
   CHECK(contains(
-      told,
+      reported,
       "\"A.mat\": found a MATLAB file, which is read by the program arcslip-mat, which is not there, "
       "must be in one of \""));
   const std::string here = std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
-  CHECK(contains(told, "\"" + here + "\""));
-  CHECK(contains(told, "\"" + std::filesystem::path(here).parent_path().string() + "/libexec/arcslip\""));
-  CHECK(contains(told, "in PATH, or where ARCSLIP_MAT says; it is built where matio is installed"));
+  CHECK(contains(reported, "\"" + here + "\""));
+  CHECK(contains(reported, "\"" + std::filesystem::path(here).parent_path().string() + "/libexec/arcslip\""));
+  CHECK(contains(reported, "in PATH, or where ARCSLIP_MAT says; it is built where matio is installed"));
 }
 
 TEST_CASE("the program is found in an absolute folder of PATH, and no file that is none") {
@@ -126,17 +126,17 @@ TEST_CASE("a program that cannot be started is a fault with the cause") {
     const Environment variable("ARCSLIP_MAT", path.c_str());
     return fault();
   };
-  const auto told = [&](const std::string& path, const std::string& cause) {
+  const auto reported = [&](const std::string& path, const std::string& cause) {
     return "\"A.mat\": found a MATLAB file, which is read by the program \"" + path +
            "\", which cannot be started: " + cause;
   };
-  CHECK(of("/nonexistent") == told("/nonexistent", "No such file or directory"));
-  CHECK(of(folder / "text") == told(folder / "text", "Permission denied"));
-  CHECK(of(folder.path()) == told(folder.path(), "Permission denied"));
+  CHECK(of("/nonexistent") == reported("/nonexistent", "No such file or directory"));
+  CHECK(of(folder / "text") == reported(folder / "text", "Permission denied"));
+  CHECK(of(folder.path()) == reported(folder.path(), "Permission denied"));
   std::filesystem::permissions(folder / "text", std::filesystem::perms::owner_all);
   std::filesystem::permissions(folder / "script", std::filesystem::perms::owner_all);
-  CHECK(of(folder / "text") == told(folder / "text", "Exec format error"));
-  CHECK(of(folder / "script") == told(folder / "script", "No such file or directory"));
+  CHECK(of(folder / "text") == reported(folder / "text", "Exec format error"));
+  CHECK(of(folder / "script") == reported(folder / "script", "No such file or directory"));
 }
 
 TEST_CASE("a program that ends by a signal is a damaged file") {
@@ -254,17 +254,17 @@ TEST_CASE("a program that hangs is killed on request, with what it started") {
     if (asked == Clock::time_point{}) asked = Clock::now();
     return true;
   };
-  std::string told;
+  std::string reported;
   try {
     read("K", stop);
   } catch (const scene::Interrupted& interrupted) {
-    told = interrupted.what();
+    reported = interrupted.what();
   } catch (const scene::MatrixError&) {
-    told = "refused";  // what never ends is refused at the first byte that is too many
+    reported = "refused";  // what never ends is refused at the first byte that is too many
   }
-  CHECK((told == "refused" || contains(told, "was read")));
+  CHECK((reported == "refused" || contains(reported, "was read")));
   CHECK(Clock::now() - begin < std::chrono::seconds(20));
-  if (told != "refused") CHECK(Clock::now() - asked < std::chrono::seconds(1));
+  if (reported != "refused") CHECK(Clock::now() - asked < std::chrono::seconds(1));
   const std::string sleeper = line_of(pid);
   REQUIRE(!sleeper.empty());
   for (int k = 0; k < 100 && runs(sleeper); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -307,7 +307,7 @@ TEST_CASE("a caller that ignores the ends of its children reads MATLAB files as 
   const FakeProgram fake("exec /bin/cat \"$here/answer\"");
   fake.folder().write("answer", matrix("1 1 1", {0, 1}, {0}, {2}));
   ::signal(SIGCHLD, SIG_IGN);
-  const std::string told = fault();
+  const std::string reported = fault();
   ::signal(SIGCHLD, SIG_DFL);
-  CHECK(told == "none");
+  CHECK(reported == "none");
 }

@@ -1,4 +1,4 @@
-// Structures from matrices in files: beside the same structures of masses and springs, and their faults.
+// Structures from matrices in files: next to the same structures of masses and springs, and their faults.
 
 #include "catch.hpp"
 #include "contains.hpp"
@@ -129,7 +129,7 @@ TEST_CASE("a long structure from matrices with dampers anywhere is that of its m
                       {"K.mtx", head + "119\n" + K},
                       {"C.mtx", head + "3\n20 20 2\n42 42 2\n42 20 -2\n"},
                       {"names.csv", names}};
-  // Beside the matrix of dampers one of the scene.
+  // Next to the matrix of dampers one of the scene.
   const std::string tip = R"({"name": "tip", "between": ["x60", "x41"], "value": 3})";
   const auto scene = [&](const std::string& structure) {
     return scenes::parse(
@@ -223,7 +223,7 @@ TEST_CASE("a scene with matrices is written, read, checked and hashed with its f
   CHECK(scene::hash(scenes::parse(scene_of(files), folder.path())) != hash);
 }
 
-TEST_CASE("what is wrong with matrices is told with file, line and cause") {
+TEST_CASE("what is wrong with matrices is reported with file, line and cause") {
   const Folder folder = chain_files();
   const auto with = [&](const std::string& name, const std::string& text) {
     const Folder own = chain_files();
@@ -298,7 +298,7 @@ TEST_CASE("motions of the ground are refused with matrices without a shape") {
   }
 }
 
-TEST_CASE("a structure that cannot be reduced is told with the row at fault") {
+TEST_CASE("a structure that cannot be reduced is reported with the row at fault") {
   const Folder folder = chain_files();
   std::string text = stiffness_file();
   text.replace(text.find("4 3 -1300"), 9, "4 3 -9300");  // indefinite, in rows that are not kept
@@ -310,7 +310,8 @@ TEST_CASE("a structure that cannot be reduced is told with the row at fault") {
       "/structure/matrices: the matrices cannot be reduced"));
 }
 
-TEST_CASE("a structure whose lowest natural frequency is lost in the last digits of its entries is told") {
+TEST_CASE(
+    "a structure whose lowest natural frequency is lost in the last digits of its entries is reported") {
   const Folder folder = chain_files();
   folder.write("M.mtx",
                "%%MatrixMarket matrix coordinate real symmetric\n5 5 5\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n5 5 1\n");
@@ -338,7 +339,7 @@ TEST_CASE("a structure that floats says so, and drifts by its name where it has 
            observables::frequency_response(s, {2, 20}).at(0).stop.message;
   };
   const std::string reduced = R"(, "highest_frequency": 200)",
-                    free = " are not told from 0, that of motions as a rigid body";
+                    free = " are not distinguished from 0, that of motions as a rigid body";
   CHECK_FALSE(contains(first_message(reduced), free));
   // Without the spring to the ground, then with a part of its own that has no name.
   std::string text = stiffness_file();

@@ -49,7 +49,7 @@ TEST_CASE("matrices in each form of the exchange format are read as written") {
   CHECK(dense_matrix("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1e-400\n")(0, 0) == 0);
 }
 
-TEST_CASE("what is wrong with a matrix file is told with its line") {
+TEST_CASE("what is wrong with a matrix file is reported with its line") {
   const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";
   CHECK(matrix_fault("").find("K.mtx, line 1: found no Matrix Market header") == 0);
   CHECK(matrix_fault("1 2 3\n").find("line 1: found no Matrix Market header") != std::string::npos);
@@ -97,16 +97,16 @@ TEST_CASE("what is wrong with a matrix file is told with its line") {
 
 TEST_CASE("a matrix file too short for an entry in each row is refused before it takes memory") {
   const std::string head = "%%MatrixMarket matrix ";
-  const auto told = [](const std::string& sizes, std::size_t bytes) {
+  const auto reported = [](const std::string& sizes, std::size_t bytes) {
     return "K.mtx, line 2: found " + sizes + " in a file of " + std::to_string(bytes) +
            " bytes, must have at most 10000000 of each, or an entry in each";
   };
   const std::string long_row = head + "coordinate real general\n100000000 1 1\n1 1 1\n";
-  CHECK(matrix_fault(long_row) == told("100000000 rows and 1 columns", long_row.size()));
+  CHECK(matrix_fault(long_row) == reported("100000000 rows and 1 columns", long_row.size()));
   const std::string wide = head + "coordinate real general\n1 10000001 1\n1 1 1\n";
-  CHECK(matrix_fault(wide) == told("1 rows and 10000001 columns", wide.size()));
+  CHECK(matrix_fault(wide) == reported("1 rows and 10000001 columns", wide.size()));
   const std::string array = head + "array real general\n20000000 0\n";
-  CHECK(matrix_fault(array) == told("20000000 rows and 0 columns", array.size()));
+  CHECK(matrix_fault(array) == reported("20000000 rows and 0 columns", array.size()));
   // The damping of two dampers in a large structure has no entries in the other rows.
   const scene::SparseMatrix C = scene::read_matrix_market(
       head + "coordinate real symmetric\n2000000 2000000 2\n7 7 0.5\n2000000 2000000 0.1\n", "C.mtx");

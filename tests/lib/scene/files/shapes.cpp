@@ -1,4 +1,4 @@
-// Forces and motions of the ground on all rows of matrices, and speeds of rotation: beside the same
+// Forces and motions of the ground on all rows of matrices, and speeds of rotation: next to the same
 // structures of masses and springs, and their faults.
 #include "catch.hpp"
 #include "contains.hpp"
@@ -58,7 +58,7 @@ std::string by_parts(double speed = 0) {
   }
   return text + "]";
 }
-// A mass on the end, beside the structure.
+// A mass on the end, next to the structure.
 const std::string tuned = R"(, "masses": [{"name": "m_t", "at": "t", "value": 0.2}],
   "springs": [{"name": "k_t", "between": ["t", "end"], "value": 60}])";
 
@@ -149,7 +149,7 @@ TEST_CASE("a motion of the ground under matrices loads all rows with their masse
              read(scene_of(structure, motion + R"(, "shape": "r.mtx"})", frame), folder));
 }
 
-TEST_CASE("a motion of the ground takes degrees of freedom beside the matrices along") {
+TEST_CASE("a motion of the ground takes degrees of freedom next to the matrices along") {
   const Folder folder = files();
   const std::string structure = GENERATE(by_files, by_reduced_files) + R"(, "dofs": ["t"])" + tuned;
   std::string parts = by_parts();
@@ -162,7 +162,7 @@ TEST_CASE("a motion of the ground takes degrees of freedom beside the matrices a
              read(scene_of(structure, motion + R"(, "shape": "r.mtx", "at": "t"})"), folder));
   CHECK(contains(
       fault(structure, motion + R"(, "shape": "r.mtx"})", folder),
-      "/excitation/0: found \"shape\" alone, must have \"direction\" beside it: how the ground moves under "
+      "/excitation/0: found \"shape\" alone, must have \"direction\" next to it: how the ground moves under "
       "\"t\", which is no row of the matrices"));
 }
 
@@ -184,7 +184,7 @@ TEST_CASE("scenes with shapes are written, read, checked and hashed with their f
     CHECK(contains(scene::json_schema(test_catalogue::whole()), key));
 }
 
-TEST_CASE("what is wrong with shapes is told") {
+TEST_CASE("what is wrong with shapes is reported") {
   const Folder folder = files();
   const auto of = [&](const std::string& keys, const std::string& structure = by_files) {
     return fault(structure, R"({"name": "p", )" + keys + R"(, "cosine": 1})", folder);
@@ -196,17 +196,17 @@ TEST_CASE("what is wrong with shapes is told") {
                  "/excitation/0/shape: found a matrix of 2 columns, must have the column 3"));
   CHECK(contains(
       of(R"("shape": {"file": "p.mtx", "variable": "p"})"),
-      "/excitation/0/shape/variable: found the variable \"p\" of \"p.mtx\", must stand beside a .mat file"));
+      "/excitation/0/shape/variable: found the variable \"p\" of \"p.mtx\", must stand next to a .mat file"));
   CHECK(contains(of(R"("shape": {"column": 1})"), "/excitation/0/shape"));
   CHECK(
       contains(of(R"("imaginary_shape": "p.mtx")"),
-               "/excitation/0/imaginary_shape: found an imaginary part alone, must stand beside \"shape\""));
+               "/excitation/0/imaginary_shape: found an imaginary part alone, must stand next to \"shape\""));
   CHECK(contains(of(R"("shape": "p.mtx", "imaginary_shape": "p.mtx", "harmonic": 0)"),
                  "/excitation/0/imaginary_shape: found an imaginary part where the harmonic is 0"));
-  CHECK(contains(of(R"("shape": "p.mtx", "at": "b")"), "/excitation/0: found \"b\" beside \"shape\""));
+  CHECK(contains(of(R"("shape": "p.mtx", "at": "b")"), "/excitation/0: found \"b\" next to \"shape\""));
   CHECK(contains(
       of(R"("shape": "p.mtx")", by_parts()),
-      "/excitation/0/shape: found a vector over the rows of matrices, must stand beside \"matrices\""));
+      "/excitation/0/shape: found a vector over the rows of matrices, must stand next to \"matrices\""));
   folder.write("short.mtx", "%%MatrixMarket matrix array real general\n3 1\n1\n1\n1\n");
   CHECK(contains(of(R"("shape": "short.mtx")"),
                  "/excitation/0/shape: found a vector of 3 rows, must have 4 as the matrices"));
@@ -274,17 +274,17 @@ TEST_CASE("the speed of rotation may follow the excitation") {
   CHECK(std::find(parameters.begin(), parameters.end(), "rotor.speed") == parameters.end());
 }
 
-TEST_CASE("what is wrong with a rotation is told") {
+TEST_CASE("what is wrong with a rotation is reported") {
   const Folder folder = files();
   const auto of = [&](const std::string& structure) { return fault(structure, force, folder); };
   CHECK(of(rotating(true, R"("speed": 3, "highest_speed": 5)")) == "none");
   CHECK(contains(of(rotating(true, R"("speed": 3)")),
-                 "/structure/rotation: found no \"highest_speed\" beside \"highest_frequency\""));
+                 "/structure/rotation: found no \"highest_speed\" next to \"highest_frequency\""));
   CHECK(contains(of(rotating(false, R"("speed": 6, "highest_speed": 5)")), "/structure/rotation/speed"));
   CHECK(contains(of(rotating(false, R"("speed": -1)")), "/structure/rotation/speed"));
   CHECK(contains(of(rotating(false, R"("speed": 1, "engine_order": 2)")), "/structure/rotation/speed"));
   CHECK(contains(of(rotating(false, R"("highest_speed": 1, "engine_order": 2)")),
-                 "/structure/rotation/highest_speed: found it beside \"engine_order\""));
+                 "/structure/rotation/highest_speed: found it next to \"engine_order\""));
   CHECK(
       contains(of(by_files + R"(, "rotation": {"name": "rotor", "speed": 3})"),
                "/structure/rotation: found no \"stiffness_speed_squared\", \"gyroscopic\" or \"circulatory\" "

@@ -130,7 +130,7 @@ void add_rest(std::vector<BadScene>& rows) {
   rows.push_back({"mistuning of one sector",
                   with_cyclic("{\"sectors\": 3, \"engine_order\": 1, \"mistuning\": {}}"),
                   "/structure/cyclic/mistuning",
-                  "found \"mistuning\", which belongs to a full ring; must have \"full\": true beside it"});
+                  "found \"mistuning\", which belongs to a full ring; must have \"full\": true next to it"});
   rows.push_back({"mistuned twice",
                   with_cyclic("{\"sectors\": 3, \"engine_order\": 1, \"full\": true, \"mistuning\": "
                               "{\"k.value\": [1, 2, 1], \"k.value\": [1, 2, 1]}}"),

@@ -1,5 +1,6 @@
 #pragma once
-// Scene files with one fault each and how it must be told: the table of the tests and of docs/robustness.md.
+// Scene files with one fault each and how it must be reported: the table of the tests and of
+// docs/robustness.md.
 
 #include <cstddef>
 #include <istream>

@@ -44,17 +44,17 @@ void add_studies(std::vector<BadScene>& rows) {
                   with_study("{\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"method\": \"shooting\", "
                              "\"branches\": \"all\"}"),
                   "/studies/0/branches",
-                  "found \"all\" beside the method \"shooting\", which follows one branch"});
+                  "found \"all\" next to the method \"shooting\", which follows one branch"});
   rows.push_back({"Hill's method by shooting",
                   with_study("{\"kind\": \"frf\", \"from\": 1, \"to\": 2, \"method\": \"shooting\", "
                              "\"stability\": \"hill\"}"),
                   "/studies/0/stability",
-                  "found \"hill\" beside the method \"shooting\", whose multipliers are exact"});
+                  "found \"hill\" next to the method \"shooting\", whose multipliers are exact"});
   rows.push_back({"Hill's method by shooting over a parameter",
                   with_study("{\"kind\": \"trace\", \"over\": \"d.normal_load\", \"from\": 1, \"to\": 2, "
                              "\"frequency\": 1, \"method\": \"shooting\", \"stability\": \"hill\"}"),
                   "/studies/0/stability",
-                  "found \"hill\" beside the method \"shooting\", whose multipliers are exact"});
+                  "found \"hill\" next to the method \"shooting\", whose multipliers are exact"});
   rows.push_back(
       {"no to", with_study("{\"kind\": \"frf\", \"from\": 2}"), "/studies/0/to", "found no key \"to\""});
   rows.push_back({"from of zero", with_study("{\"kind\": \"frf\", \"from\": 0, \"to\": 2}"),

@@ -73,7 +73,7 @@ TEST_CASE("a file with seven faults gives these seven in one go") {
   CHECK(pointers == expected);
 }
 
-TEST_CASE("all faults of a study over a parameter are told in one go") {
+TEST_CASE("all faults of a study over a parameter are reported in one go") {
   const std::vector<Fault> faults = faults_of(good_scene_with(
       R"({"kind": "frf", "from": 1, "to": 2, "for_each": {"d.normal_load": [1, 2]}})",
       R"({"kind": "folds", "over": "d.normal_load", "from": -1, "too": 2, "frequency": [0, "2"],
@@ -90,7 +90,7 @@ TEST_CASE("all faults of a study over a parameter are told in one go") {
   CHECK(pointers == expected);
 }
 
-TEST_CASE("all faults of a study of an optimum are told in one go") {
+TEST_CASE("all faults of a study of an optimum are reported in one go") {
   const std::vector<Fault> faults = faults_of(
       good_scene_with(R"({"kind": "frf", "from": 1, "to": 2, "for_each": {"d.normal_load": [1, 2]}})",
                       R"({"kind": "optimum", "over": ["d.normal_load", "d.normal_load", "frequency", 3],
@@ -150,7 +150,7 @@ TEST_CASE("what() of a scene error has one line for each fault, with its pointer
   CHECK(std::string(error.what()) == "/a: found 1\ntoo long");
 }
 
-TEST_CASE("what follows from a fault that is told is not told again") {
+TEST_CASE("what follows from a fault that is reported is not reported again") {
   SECTION("the parameters of an element whose type is not known") {
     const auto faults = faults_of(good_scene_with("\"jenkins\"", "\"jenkinz\""));
     REQUIRE(faults.size() == 1);

@@ -128,7 +128,7 @@ TEST_CASE("copies of matrices may stand in a row, without a ring") {
     const scene::Scene s = read(row_of(keys), folder);
     CHECK(s.dofs == std::vector<std::string>{"a1", "a2", "b1", "b2"});
     CHECK(read(scene::write(s), folder) == s);
-    // Beside two structures in one pair of files, in which the names are written out.
+    // Next to two structures in one pair of files, in which the names are written out.
     Sector both;
     both.masses = {1, 2, 3, 1, 2, 3};
     both.springs = {{0, -1, 1}, {1, 0, 2}, {2, 1, 3}, {3, -1, 1}, {4, 3, 2}, {5, 4, 3}};
@@ -154,7 +154,7 @@ TEST_CASE("a shape acts on the copy that it names") {
   CHECK(at(2, 0.3) > 2 * at(1, 0.3));
 }
 
-TEST_CASE("what is wrong with copies of matrices is told") {
+TEST_CASE("what is wrong with copies of matrices is reported") {
   const Folder folder = three_rows();
   const std::string matrices = "/structure/matrices";
   const auto of = [&](const std::string& keys, const std::string& pointer, const std::string& part) {
@@ -183,11 +183,12 @@ TEST_CASE("what is wrong with copies of matrices is told") {
      "834 copies have 2502 degrees of freedom together, must have at most 2500, since the matrices of the "
      "model "
      "are dense; lower \"highest_frequency\", let the scene use fewer rows");
-  check_fault(with(row_of(R"(, "copies": 2)"), "\"names\"",
-                   R"("cyclic": {"sectors": 2, "engine_order": 1}, "names")"),
-              folder, matrices + "/copies",
-              "found 2 beside \"cyclic\", must be left out: one sector has one copy, and with \"full\": true "
-              "there are as many as sectors");
+  check_fault(
+      with(row_of(R"(, "copies": 2)"), "\"names\"",
+           R"("cyclic": {"sectors": 2, "engine_order": 1}, "names")"),
+      folder, matrices + "/copies",
+      "found 2 next to \"cyclic\", must be left out: one sector has one copy, and with \"full\": true "
+      "there are as many as sectors");
   const std::string names = "/structure/names";
   const auto named = [&](const std::string& text, const std::string& keys, const std::string& part) {
     folder.write("names.csv", "name,row\n" + text);
@@ -217,7 +218,7 @@ TEST_CASE("what is wrong with copies of matrices is told") {
       "most as many: leave out those that the scene does not use");
 }
 
-TEST_CASE("what is wrong with shapes on copies is told") {
+TEST_CASE("what is wrong with shapes on copies is reported") {
   const Folder folder = three_rows();
   const auto of = [&](const std::string& keys, const std::string& pointer, const std::string& part,
                       const std::string& copies = R"(, "copies": 2)") {
@@ -225,14 +226,14 @@ TEST_CASE("what is wrong with shapes on copies is told") {
                 "/excitation/0" + pointer, part);
   };
   of(R"("shape": "p.mtx", )", "",
-     "found \"shape\" without \"copy\", must have it beside it, an integer from 1 to 2: on which of the "
+     "found \"shape\" without \"copy\", must have it next to it, an integer from 1 to 2: on which of the "
      "copies "
      "of the matrices the shape acts; \"repeat\" makes excitations for several");
   of(R"("shape": "p.mtx", "copy": 3, )", "/copy",
      "found 3, must be an integer from 1 to 2, one of the copies");
   of(R"("shape": "p.mtx", "copy": 0, )", "/copy", "found 0, must be an integer from 1 to 10000");
   of(R"("at": "a1", "copy": 1, )", "/copy",
-     "found a copy of matrices without \"shape\", must stand beside it");
+     "found a copy of matrices without \"shape\", must stand next to it");
   check_fault(
       with(full(), R"("direction": {"tip.z": 1, "hub": 0.4}, "cosine")",
            R"("shape": "p.mtx", "copy": 1, "cosine")"),
@@ -241,7 +242,7 @@ TEST_CASE("what is wrong with shapes on copies is told") {
       "order");
 }
 
-TEST_CASE("what is wrong with full rings from matrices is told") {
+TEST_CASE("what is wrong with full rings from matrices is reported") {
   const Folder folder = files();
   const std::string at = "/structure/cyclic", matrices = "/structure/matrices";
   check_fault(scene_text({3, 1, R"(, "copies": 3)"}, Ring::full), folder, matrices + "/copies",
@@ -273,10 +274,10 @@ TEST_CASE("what is wrong with full rings from matrices is told") {
       ")" + bar +
             R"(": {}}, "excitation": [{"name": "f", "at": "a", "cosine": 1}]})",
         folder, at + "/full",
-        "found true beside \"" + bar +
+        "found true next to \"" + bar +
             "\", must be false, or the sector must be of masses and springs, or of matrices");
   check_fault(with(full(), "\"excitation\"", "\"patches\": [], \"excitation\""), folder, at + "/full",
-              "found true beside \"patches\", must be false, or the contacts must be elements");
+              "found true next to \"patches\", must be false, or the contacts must be elements");
 }
 
 TEST_CASE("a structure in copies is not written in reduced form, one of its sectors is") {

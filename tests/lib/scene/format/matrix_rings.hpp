@@ -106,8 +106,8 @@ inline const std::string responses = R"([{"name": "tip", "at": "tip.z"}, {"name"
 
 enum class Ring { sector, full };
 
-/// A sector with a mass and a spring on its tip, a mass "pad" beside the matrices, and links to the next hub,
-/// of which one has no mirror image.
+/// A sector with a mass and a spring on its tip, a mass "pad" next to the matrices, and links to the next
+/// hub, of which one has no mirror image.
 inline std::string scene_text(const Given& given, Ring ring, const std::string& response = responses) {
   std::string cyclic = R"("sectors": )" + std::to_string(given.sectors) + R"(, "engine_order": )" +
                        std::to_string(given.order);

@@ -1,5 +1,5 @@
 #pragma once
-// A scene with one fault, which is told where it stands.
+// A scene with one fault, which is reported where it stands.
 
 #include "catch.hpp"
 

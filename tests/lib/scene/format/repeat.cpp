@@ -1,4 +1,4 @@
-// Entries over an index, beside the same scenes written out and the closed form of waves around a ring.
+// Entries over an index, next to the same scenes written out and the closed form of waves around a ring.
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
@@ -174,7 +174,8 @@ TEST_CASE("quarters of a turn are exact, and a ground may move as an engine orde
 }
 
 TEST_CASE(
-    "faults of repeated entries are told at the entry, with the index, and once where they are the same") {
+    "faults of repeated entries are reported at the entry, with the index, and once where they are the "
+    "same") {
   const auto one = [](const std::string& text) {
     const auto faults = faults_of(text);
     REQUIRE(faults.size() == 1);

@@ -122,7 +122,7 @@ TEST_CASE("mistuning multiplies values of single sectors, which are then paramet
   CHECK(s == scenes::parse(scene::write(s)));
 }
 
-TEST_CASE("faults of rings are told where the user wrote them") {
+TEST_CASE("faults of rings are reported where the user wrote them") {
   const auto cyclic = [](const std::string& keys) {
     return with(sector, R"("sectors": 3, "engine_order": 2)", keys);
   };
@@ -165,9 +165,9 @@ TEST_CASE("faults of rings are told where the user wrote them") {
               "/structure/springs/2/direction/next/top",
               "found \"top\", must be one of the degrees of freedom");
   check_fault(with(full(), "\"dofs\": [", "\"beam\": {}, \"dofs\": ["), at + "/full",
-              "found true beside \"beam\", must be false");
+              "found true next to \"beam\", must be false");
   check_fault(with(full(), "\"ties\"", "\"patches\": [], \"ties\""), at + "/full",
-              "found true beside \"patches\", must be false");
+              "found true next to \"patches\", must be false");
   check_fault(with(sector, "\"ties\"", R"("harmonics": {"order": 4, "period": 2}, "ties")"),
               "/harmonics/period", "found 2, must be 1 for one sector");
   check_fault(

@@ -8,7 +8,7 @@
 using namespace arcslip;
 using namespace rotors;
 
-TEST_CASE("what is wrong with unsymmetric matrices is told with the entry at fault") {
+TEST_CASE("what is wrong with unsymmetric matrices is reported with the entry at fault") {
   const std::string head = "%%MatrixMarket matrix coordinate real ";
   const auto files = [&] {
     const std::string diagonal = head + "general\n3 3 3\n1 1 1\n2 2 2\n3 3 3\n";
@@ -74,7 +74,7 @@ TEST_CASE("what is wrong with unsymmetric matrices is told with the entry at fau
   CHECK(contains(with(R"(, "unsymmetric": ["stiffness", "stiffness"])", "", ""),
                  "/structure/matrices/unsymmetric/1: found \"stiffness\" again, must be given once"));
   CHECK(contains(with(R"(, "unsymmetric": ["damping"])", "", ""),
-                 "found \"damping\" without the key \"damping\", must be beside that matrix"));
+                 "found \"damping\" without the key \"damping\", must be next to that matrix"));
   for (const char* key : {"\"gyroscopic\"", "\"circulatory\"", "\"unsymmetric\""})
     CHECK(contains(scene::json_schema(test_catalogue::whole()), key));
 }

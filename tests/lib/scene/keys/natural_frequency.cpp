@@ -1,4 +1,4 @@
-// Springs and dampers given by a natural frequency and a damping ratio, beside the closed forms of one mass.
+// Springs and dampers given by a natural frequency and a damping ratio, next to the closed forms of one mass.
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
@@ -80,7 +80,7 @@ TEST_CASE("each blade of a ring may have a natural frequency of its own") {
   for (int i = 1; i <= 3; ++i) CHECK(scene::value(s, "k" + std::to_string(i) + ".value") == 2 * i * i);
 }
 
-TEST_CASE("what is missing for a natural frequency or a damping ratio is told") {
+TEST_CASE("what is missing for a natural frequency or a damping ratio is reported") {
   const std::string mass = R"({"name": "m", "at": "x", "value": 1})";
   const auto fault = [](const std::string& masses, const std::string& springs, const std::string& dampers) {
     try {

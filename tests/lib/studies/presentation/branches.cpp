@@ -123,7 +123,7 @@ TEST_CASE(
   CHECK_FALSE(response["points"][0].contains("damper.normal_load"));
 }
 
-TEST_CASE("a branch in JSON tells its study, where it knows it") {
+TEST_CASE("a branch in JSON reports its study, where it knows it") {
   auto branch = support::branch();
   CHECK_FALSE(branches_json(support::scene(), {branch})["branches"][0].contains("study"));
   branch.study = "a \"study\"";
@@ -299,7 +299,7 @@ observables::ResponseBranch with_limits(const std::vector<int>& unstable,
   for (const auto& [omega, after] : limits) {
     observables::ResponseEvent event{"fold", false, true, branch.points.front(), after};
     event.point.omega = omega;
-    event.point.stability->unstable = 0;  // beside the one that makes it a limit
+    event.point.stability->unstable = 0;  // next to the one that makes it a limit
     branch.events.push_back(std::move(event));
   }
   return branch;
@@ -321,7 +321,7 @@ TEST_CASE(
   CHECK(text(with_limits({0, 0}, {{1.25, 0}, {1.5, 0}})) == "unstable from 1.25 to 1.5 rad/s");
   CHECK(text(with_limits({1, 1, 0}, {{1.25, 0}, {1.5, 0}, {2.5, 1}})) ==
         "unstable from 1 to 1.25, from 1.5 to 2.5 rad/s");
-  // Where multipliers jump beside a limit, the points decide.
+  // Where multipliers jump next to a limit, the points decide.
   CHECK(text(with_limits({0, 0, 1}, {{1.5, 0}})) == "unstable from 3 to 3 rad/s");
   CHECK(text(with_limits({1, 1, 0}, {{1.5, 0}})) == "unstable from 1 to 2 rad/s");
   // A branch that turns back: frequencies need not rise.

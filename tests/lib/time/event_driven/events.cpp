@@ -212,7 +212,7 @@ TEST_CASE("a slider beyond its limit is drawn after at the start, and that is no
   CHECK(motion.friction[0].stick_time == 0);  // x' > 0: it slips on
 }
 
-TEST_CASE("contact at the limit is told by the motion: outward it slips, inward it sticks") {
+TEST_CASE("contact at the limit is determined by the motion: outward it slips, inward it sticks") {
   auto equation = oscillator(1, 0, 40);
   add_damper(equation, Vector::Ones(1), 10, 2);
   EventDriven integrator(equation);

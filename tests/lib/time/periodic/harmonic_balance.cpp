@@ -2,15 +2,15 @@
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 using namespace arcslip;
 
-using beside_exact::balanced;
-using beside_exact::difference;
+using compared_with_exact::balanced;
+using compared_with_exact::difference;
 
 TEST_CASE(
     "harmonic balance with 55, 101 and 201 is within 1.5e-7, 2.5e-8 and 4e-9 of A_max at every instant") {
@@ -77,7 +77,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("beside the resonance of the undamped stuck structure shooting converges from harmonic balance") {
+TEST_CASE("next to the resonance of the undamped stuck structure shooting converges from harmonic balance") {
   const double w = 20.903 * scenes::hertz, stuck = 1 / (21390 - 1.24 * w * w);  // m, without slip
   for (const double part : {0.1, 1e-3, 1e-6}) {
     CAPTURE(part);

@@ -1,11 +1,11 @@
-// Random structures with friction: exact periodic motions of all of them, and harmonic balance beside them.
+// Random structures with friction: exact periodic motions of all of them, and harmonic balance next to them.
 // ARCSLIP_SCENES is how many of each kind of excitation; by default 40, or 1000 with ARCSLIP_FULL=1.
 #include "catch.hpp"
 
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
 #include "lib/time/equation/systems.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 #include "lib/time/periodic/random_contacts.hpp"
 #include "random.hpp"
 
@@ -71,7 +71,7 @@ TEST_CASE("every random structure has a stable periodic motion, found from rest,
         const auto equation = time::equation_of_motion(model, p);
         time::EventDriven integrator(equation);
         const auto motion = time::periodic_motion(integrator, time::at_rest(equation), {},
-                                                  beside_exact::over_period(equation, 2000));
+                                                  compared_with_exact::over_period(equation, 2000));
         REQUIRE(motion.converged());
         CHECK(motion.shooting.stable);
         CHECK(motion.shooting.maps < 100);
@@ -92,10 +92,12 @@ TEST_CASE("harmonic balance of random structures converges to the exact motion a
         CAPTURE(seed, static_cast<int>(kind), part);
         s.harmonics.order = 41;
         const double coarse =
-            beside_exact::difference(beside_exact::balanced(s, frequency(s, part)), 500).displacement;
+            compared_with_exact::difference(compared_with_exact::balanced(s, frequency(s, part)), 500)
+                .displacement;
         s.harmonics.order = 81;
         const double fine =
-            beside_exact::difference(beside_exact::balanced(s, frequency(s, part)), 500).displacement;
+            compared_with_exact::difference(compared_with_exact::balanced(s, frequency(s, part)), 500)
+                .displacement;
         CHECK(coarse < 1e-4);
         CHECK(fine < 1e-5);
         if (coarse < 1e-10) continue;  // stuck: no truncation
@@ -121,17 +123,17 @@ void check_decay(scene::Scene (*with)(scene::Scene, std::uint64_t, double), std:
       s = with(s, seed, at);
       CAPTURE(seed, static_cast<int>(kind));
       s.harmonics.order = 41;
-      const auto narrow = beside_exact::balanced(s, at);
-      const auto beside = beside_exact::difference(narrow, 500);
+      const auto narrow = compared_with_exact::balanced(s, at);
+      const auto nearby = compared_with_exact::difference(narrow, 500);
       s.harmonics.order = 81;
-      const auto wide = beside_exact::balanced(s, at);
-      const double fine = beside_exact::difference(wide, 500).displacement;
-      CHECK(beside.displacement < 1e-3);
+      const auto wide = compared_with_exact::balanced(s, at);
+      const double fine = compared_with_exact::difference(wide, 500).displacement;
+      CHECK(nearby.displacement < 1e-3);
       CHECK(fine < 2e-4);
-      met += std::any_of(beside.exact.period.events.begin(), beside.exact.period.events.end(),
+      met += std::any_of(nearby.exact.period.events.begin(), nearby.exact.period.events.end(),
                          [&](const auto& event) { return event.to == mode; });
-      if (beside.displacement < 1e-9) continue;
-      logarithms += std::log(beside.displacement / fine);
+      if (nearby.displacement < 1e-9) continue;
+      logarithms += std::log(nearby.displacement / fine);
       ++count;
     }
   const double ratio = std::exp(logarithms / count), third_power = std::pow(81.0 / 41, 3);

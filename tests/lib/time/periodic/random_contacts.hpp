@@ -1,7 +1,7 @@
 #pragma once
 // Stops and contacts in planes on a random structure, sized by its motion without them.
 
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 #include "random.hpp"
 
 #include <arcslip/laws/contact/contact_2d.hpp>
@@ -15,7 +15,7 @@ using test_random::Random;
 // A stop of up to ten times the stiffest spring at each of one or two masses, where the motion without it
 // comes to between 0.9 and 3 times the gap.
 inline scene::Scene with_stops(scene::Scene s, std::uint64_t seed, double at) {
-  const auto free = beside_exact::balanced(s, at);
+  const auto free = compared_with_exact::balanced(s, at);
   const auto amplitudes = time::dof_coefficients(*free.problem, free.u, free.p);
   Random random(seed);
   const int count = std::min<int>(random.count(1, 2), static_cast<int>(s.dofs.size()));
@@ -33,7 +33,7 @@ inline scene::Scene with_stops(scene::Scene s, std::uint64_t seed, double at) {
 // One to three contacts, each between two degrees of freedom or within one, with loads from a gap to such as
 // are always in contact.
 inline scene::Scene with_contacts(scene::Scene s, std::uint64_t seed, double at) {
-  const auto free = beside_exact::balanced(s, at);
+  const auto free = compared_with_exact::balanced(s, at);
   const auto amplitudes = time::dof_coefficients(*free.problem, free.u, free.p);
   Random random(seed);
   const int dofs = static_cast<int>(s.dofs.size());

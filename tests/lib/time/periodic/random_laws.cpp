@@ -1,9 +1,9 @@
-// Random structures with each law that is not piecewise linear: harmonic balance beside Newmark's method with
-// shooting. ARCSLIP_SCENES is how many for each law; by default 10, or 100 with ARCSLIP_FULL=1.
+// Random structures with each law that is not piecewise linear: harmonic balance next to Newmark's method
+// with shooting. ARCSLIP_SCENES is how many for each law; by default 10, or 100 with ARCSLIP_FULL=1.
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 #include "random.hpp"
 
 #include <arcslip/analyses/branches/frequency_branch.hpp>
@@ -123,7 +123,7 @@ std::string random_elements(const Structure& s, const Element& element, std::uin
   return all;
 }
 
-beside_exact::Pair balanced(const scene::Scene& scene, double omega) {
+compared_with_exact::Pair balanced(const scene::Scene& scene, double omega) {
   const auto model = std::make_shared<const model::Model>(model::build(scene));
   const auto first = observables::first_response(model, omega, omega, [] { return true; });
   REQUIRE(first.u);
@@ -131,11 +131,11 @@ beside_exact::Pair balanced(const scene::Scene& scene, double omega) {
   return {first.problem, p, *first.u, time::equation_of_motion(*model, p)};
 }
 
-beside_exact::Pair in_more_harmonics(const beside_exact::Pair& from, int order) {
+compared_with_exact::Pair in_more_harmonics(const compared_with_exact::Pair& from, int order) {
   elements::Harmonics many = from.problem->harmonics();
   const elements::Harmonics few = many;
   many.order = order;
-  beside_exact::Pair to = from;
+  compared_with_exact::Pair to = from;
   to.problem = std::make_shared<const hbm::HbmProblem>(*from.problem, many, from.problem->sampling());
   Vector u = Vector::Zero(to.problem->size());
   for (int i = 0; i < to.problem->blocks(); ++i)
@@ -150,7 +150,7 @@ beside_exact::Pair in_more_harmonics(const beside_exact::Pair& from, int order) 
 // All displacements and, over the frequency, all velocities, at some instants of the period: a row for each.
 constexpr int instants = 32;
 
-time::Matrix balanced_states(const beside_exact::Pair& pair) {
+time::Matrix balanced_states(const compared_with_exact::Pair& pair) {
   const auto coefficients = time::dof_coefficients(*pair.problem, pair.u, pair.p);
   const Eigen::Index dofs = coefficients.cols();
   time::Matrix all(instants, 2 * dofs);
@@ -165,7 +165,7 @@ time::Matrix balanced_states(const beside_exact::Pair& pair) {
 }
 
 // The same by Newmark's method, from the motion of harmonic balance on.
-time::Matrix stepped_states(const beside_exact::Pair& near, long steps) {
+time::Matrix stepped_states(const compared_with_exact::Pair& near, long steps) {
   time::Newmark newmark(near.equation, steps);
   time::ShootingOptions options;
   options.transients = 0;

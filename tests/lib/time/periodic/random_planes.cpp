@@ -1,8 +1,8 @@
-// Random structures with contacts in planes: harmonic balance beside Newmark's method with shooting.
+// Random structures with contacts in planes: harmonic balance next to Newmark's method with shooting.
 // ARCSLIP_SCENES is how many; by default 10, or 100 with ARCSLIP_FULL=1.
 #include "catch.hpp"
 
-#include "lib/time/periodic/beside_exact.hpp"
+#include "lib/time/periodic/compared_with_exact.hpp"
 #include "random.hpp"
 
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
@@ -72,7 +72,7 @@ scene::Scene structure(std::uint64_t seed) {
 // One or two contacts between a mass and the ground or another mass, with loads from a gap to such as never
 // open.
 scene::Scene with_planes(scene::Scene s, std::uint64_t seed) {
-  const auto free = beside_exact::balanced(s, 95);
+  const auto free = compared_with_exact::balanced(s, 95);
   const auto amplitudes = time::dof_coefficients(*free.problem, free.u, free.p);
   Random random(seed + 1000);
   const int masses = static_cast<int>(s.dofs.size()) / 3;
@@ -111,7 +111,7 @@ TEST_CASE("random structures with contacts in planes have the periodic motion of
     double balanced[2];
     for (const int k : {0, 1}) {
       s.harmonics.order = k == 0 ? 21 : 41;
-      const auto pair = beside_exact::balanced(s, 95);
+      const auto pair = compared_with_exact::balanced(s, 95);
       const auto coefficients = time::dof_coefficients(*pair.problem, pair.u, pair.p);
       elements::LargestValue largest(pair.problem->harmonics());
       balanced[k] = largest.of(coefficients.col(0));

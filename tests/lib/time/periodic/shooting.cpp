@@ -323,7 +323,7 @@ TEST_CASE("a mean force moves the centre of a resting slider, which then bears n
 }
 
 TEST_CASE("a flow of one's own is shot at as well") {
-  // x' = -x + 1/2 over 2 pi, and beside it v := v + (2 - v^2)/4, whose fixed point sqrt 2 has 1 - sqrt(2)/2.
+  // x' = -x + 1/2 over 2 pi, and next to it v := v + (2 - v^2)/4, whose fixed point sqrt 2 has 1 - sqrt(2)/2.
   const Flow flow = [](const MotionState& start) {
     const double e = std::exp(-2 * std::numbers::pi), x = start.x[0], v = start.v[0];
     PeriodMap map;

@@ -18,13 +18,13 @@ using continuation::Vector;
 
 namespace {
 
-// Beside a periodic motion, so that no term of the residual vanishes.
+// Next to a periodic motion, so that no term of the residual vanishes.
 struct Place {
   std::shared_ptr<const time::ShootingProblem> problem;
   Vector X, p;
 };
 
-Place place(const scene::Scene& s, double omega, double beside = 1e-3) {
+Place place(const scene::Scene& s, double omega, double nearby = 1e-3) {
   const auto model = std::make_shared<const model::Model>(model::build(s));
   const hbm::HbmProblem unscaled(model, model->harmonics, 1, omega);
   const Vector of_series = hbm::parameters_at(unscaled, omega);
@@ -39,18 +39,18 @@ Place place(const scene::Scene& s, double omega, double beside = 1e-3) {
   found.problem = std::make_shared<const time::ShootingProblem>(model, size, omega, omega);
   const Vector scales = found.problem->scales();
   for (Eigen::Index i = 0; i < found.X.size(); ++i)
-    found.X[i] += beside * scales[i] * std::cos(1.0 + static_cast<double>(i));
+    found.X[i] += nearby * scales[i] * std::cos(1.0 + static_cast<double>(i));
   return found;
 }
 
-void check_derivatives(const scene::Scene& s, double omega, double beside_it = 1e-3) {
-  const Place at = place(s, omega, beside_it);
+void check_derivatives(const scene::Scene& s, double omega, double near_it = 1e-3) {
+  const Place at = place(s, omega, near_it);
   const auto wrong = continuation::check_jacobian(*at.problem, at.X, at.p);
   CAPTURE(wrong.message, wrong.row, wrong.column, wrong.given, wrong.difference);
   CHECK(wrong.relative < 1e-6);  // of differences; columns have entries in m and in m/s
 
   // Of the amplitude.
-  time::ShootingEvaluator here(*at.problem), beside(*at.problem);
+  time::ShootingEvaluator here(*at.problem), nearby(*at.problem);
   REQUIRE(here.move_to(at.X, at.p, Needs::jacobian) == continuation::Evaluated::ok);
   const Eigen::RowVectorXd by = here.orbit().amplitude_by;
   const auto difference = [&](double& varied, const Vector& X, const Vector& p, double h) {
@@ -58,8 +58,8 @@ void check_derivatives(const scene::Scene& s, double omega, double beside_it = 1
     const double middle = varied;
     for (const int side : {0, 1}) {
       varied = middle + (side == 0 ? -h : h);
-      REQUIRE(beside.move_to(X, p, Needs::residual) == continuation::Evaluated::ok);
-      A[side] = beside.amplitude();
+      REQUIRE(nearby.move_to(X, p, Needs::residual) == continuation::Evaluated::ok);
+      A[side] = nearby.amplitude();
     }
     varied = middle;
     return (A[1] - A[0]) / (2 * h);
@@ -146,8 +146,8 @@ TEST_CASE("derivatives of shooting with every law that has pieces") {
                       element + R"(}], "excitation": [)" + excitation + R"(], "harmonics": {"order": 15},
       "response": {"at": "b"}})");
     // A slider that is held at its limit is next to slip: farther from that kink.
-    const double beside_it = excitation == mostly_static ? 0.1 : 1e-3;
-    for (const double omega : {0.6, 1.1}) check_derivatives(s, omega, beside_it);
+    const double near_it = excitation == mostly_static ? 0.1 : 1e-3;
+    for (const double omega : {0.6, 1.1}) check_derivatives(s, omega, near_it);
   }
 }
 
@@ -179,21 +179,21 @@ TEST_CASE("the instant at which a contact lands and sticks moves with its load")
   }
 }
 
-TEST_CASE("at a normal load of 0, where a damper has other modes, the derivatives are those beside it") {
+TEST_CASE("at a normal load of 0, where a damper has other modes, the derivatives are those next to it") {
   Place at = place(scenes::paper(15, 0), 20 * scenes::hertz);
   at.X[0] *= 0.5;  // so that the largest displacement is not that of the start
   const int load = model::parameter_index(at.problem->model(), "damper.normal_load");
-  time::ShootingEvaluator here(*at.problem), beside(*at.problem);
+  time::ShootingEvaluator here(*at.problem), nearby(*at.problem);
   REQUIRE(here.move_to(at.X, at.p, Needs::jacobian) == continuation::Evaluated::ok);
   Vector dF(at.X.size()), p = at.p;
   here.parameter_derivative(load, dF);
   REQUIRE(std::abs(here.amplitude_derivative(load)) > 0);
   const double h = 1e-8;  // each reversal sticks for a time that grows with its root
   p[load] = h;
-  REQUIRE(beside.move_to(at.X, p, Needs::residual) == continuation::Evaluated::ok);
-  const Vector difference = (beside.residual() - here.residual()) / h;
+  REQUIRE(nearby.move_to(at.X, p, Needs::residual) == continuation::Evaluated::ok);
+  const Vector difference = (nearby.residual() - here.residual()) / h;
   CHECK((dF - difference).norm() < 2e-3 * difference.norm());
-  CHECK(std::abs(here.amplitude_derivative(load) - (beside.amplitude() - here.amplitude()) / h) <
+  CHECK(std::abs(here.amplitude_derivative(load) - (nearby.amplitude() - here.amplitude()) / h) <
         2e-3 * std::abs(here.amplitude_derivative(load)));
 }
 

@@ -1,4 +1,4 @@
-// What is told of starts and ends that have a cause of their own, and not another one.
+// What is reported of starts and ends that have a cause of their own, and not another one.
 
 #include "catch.hpp"
 
@@ -49,13 +49,13 @@ TEST_CASE("a step that an option holds below the smallest one ends with the opti
   CHECK(says(branch.stop.message, "`scale`"));
 }
 
-TEST_CASE("the index of a parameter that there is not is told as an index from 0") {
+TEST_CASE("the index of a parameter that there is not is reported as an index from 0") {
   const auto one = from_functions(1, {{"p", ""}}, [](In u, In p, Out F) { F[0] = u[0] - p[0]; });
   CHECK_THROWS_WITH(trace(one, {.u = Vector{{0.0}}, .p = Vector{{0.0}}, .free = 1}, window(0, 1)),
                     "the free parameter has index 1, but the problem has 1 parameter, with index 0");
 }
 
-TEST_CASE("a start on a branch point is told to be one, with a tangent or without") {
+TEST_CASE("a start on a branch point is reported to be one, with a tangent or without") {
   // 0.1 (1 - S) - R S I, R S I - I: transcritical at R = 1, S = 1, I = 0
   const auto epidemic = from_functions(2, {{"R", "", 1}}, [](In u, In p, Out F) {
     F << 0.1 * (1 - u[0]) - p[0] * u[0] * u[1], p[0] * u[0] * u[1] - u[1];
@@ -66,13 +66,13 @@ TEST_CASE("a start on a branch point is told to be one, with a tangent or withou
     CAPTURE(branch.stop.message);
     CHECK(branch.stop.reason == StopReason::start_failed);
     CHECK(says(branch.stop.message, "it is a branch point"));
-    CHECK(says(branch.stop.message, "start beside it"));
+    CHECK(says(branch.stop.message, "start next to it"));
     CHECK_FALSE(says(branch.stop.message, "needs a tangent"));
   }
-  const Branch beside = trace(epidemic, {.u = Vector{{1.0, 0.0}}, .p = Vector{{0.7}}}, window(0.5, 2),
+  const Branch nearby = trace(epidemic, {.u = Vector{{1.0, 0.0}}, .p = Vector{{0.7}}}, window(0.5, 2),
                               {branch_point_monitor()});
-  REQUIRE(beside.events.size() == 1);
-  CHECK(std::abs(beside.events[0].point.parameter - 1) < 1e-9);
+  REQUIRE(nearby.events.size() == 1);
+  CHECK(std::abs(nearby.events[0].point.parameter - 1) < 1e-9);
 }
 
 TEST_CASE("sums that are conserved are named, one or two") {
@@ -134,7 +134,7 @@ TEST_CASE("a parameter among the unknowns of a curve is refused as the free one,
       "the parameter \"mu\" is among the unknowns of this problem: another one has to be free");
 }
 
-TEST_CASE("a start on a fold is not told to be a branch point where equations have other units") {
+TEST_CASE("a start on a fold is not reported to be a branch point where equations have other units") {
   // p = u0^2 in N, and a second equation in units a billion times larger
   const auto units = from_functions(
       2, {{"p", "", 0}}, [](In u, In p, Out F) { F << p[0] - u[0] * u[0], 1e-9 * (u[1] - 2 * p[0]); },

@@ -28,7 +28,7 @@ inline constexpr std::array<Nudge, 5> nudges{{{1e-8, Nudge::Size::of_entry},
                                               {1e-5, Nudge::Size::of_entry},
                                               {1e-5, Nudge::Size::of_larger}}};
 
-/// beside: of the kind and pattern of J. False: J is an operator, whose entries are not known.
-bool nudged(const Jacobian& J, const Nudge& nudge, Jacobian& beside);
+/// nearby: of the kind and pattern of J. False: J is an operator, whose entries are not known.
+bool nudged(const Jacobian& J, const Nudge& nudge, Jacobian& nearby);
 
 }  // namespace arcslip::continuation

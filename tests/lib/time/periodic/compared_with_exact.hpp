@@ -1,5 +1,5 @@
 #pragma once
-// A response by harmonic balance and the exact periodic motion beside it.
+// A response by harmonic balance and the exact periodic motion next to it.
 
 #include "catch.hpp"
 
@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace beside_exact {
+namespace compared_with_exact {
 
 using namespace arcslip;
 
@@ -61,4 +61,4 @@ inline Difference difference(const Pair& pair, int instants) {
   return result;
 }
 
-}  // namespace beside_exact
+}  // namespace compared_with_exact

@@ -1,4 +1,4 @@
-#include <arcslip/continuation/linear/beside_singular.hpp>
+#include <arcslip/continuation/linear/near_singular.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ void change_by_rows_and_columns(AnyMatrix& J, const Nudge& nudge) {
 
 }  // namespace
 
-bool nudged(const Jacobian& J, const Nudge& nudge, Jacobian& beside) {
+bool nudged(const Jacobian& J, const Nudge& nudge, Jacobian& nearby) {
   const auto change = [&](auto& matrix) {
     if (nudge.size == Nudge::Size::of_entry)
       change_by_entries(matrix, nudge.share);
@@ -65,9 +65,9 @@ bool nudged(const Jacobian& J, const Nudge& nudge, Jacobian& beside) {
       change_by_rows_and_columns(matrix, nudge);
   };
   if (std::holds_alternative<const Operator*>(J)) return false;
-  beside = J;
-  if (auto* dense = std::get_if<Matrix>(&beside)) change(*dense);
-  if (auto* sparse = std::get_if<SparseMatrix>(&beside)) change(*sparse);
+  nearby = J;
+  if (auto* dense = std::get_if<Matrix>(&nearby)) change(*dense);
+  if (auto* sparse = std::get_if<SparseMatrix>(&nearby)) change(*sparse);
   return true;
 }
 
