@@ -8,7 +8,7 @@
 #include "measure.hpp"
 
 #include <arcslip/continuation/linear/linear_solvers.hpp>
-#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/problem/problem_from_functions.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
 
 #include <cmath>

@@ -8,11 +8,11 @@
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/continuation/problem/choices.hpp>
-#include <arcslip/continuation/problem/functions.hpp>
 #include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/continuation/problem/linear_solver.hpp>
 #include <arcslip/continuation/problem/options.hpp>
 #include <arcslip/continuation/problem/problem.hpp>
+#include <arcslip/continuation/problem/problem_from_functions.hpp>
 #include <arcslip/continuation/special_points/branch_point.hpp>
 #include <arcslip/continuation/special_points/branch_point_curve.hpp>
 #include <arcslip/continuation/special_points/hopf_curve.hpp>

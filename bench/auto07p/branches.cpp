@@ -1,6 +1,6 @@
 #include "branches.hpp"
 
-#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/problem/problem_from_functions.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/catalogue.hpp>

@@ -1,6 +1,6 @@
 #include <arcslip/continuation/linear/small_lu.hpp>
 
-#include <arcslip/continuation/linear/widest.hpp>
+#include <arcslip/continuation/linear/cpu_dispatch.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <arcslip/continuation/special_points/branch_point.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/continuation/special_points/inner_problem.hpp>
+#include <arcslip/continuation/special_points/augmented_problem.hpp>
 
 #include <algorithm>
 #include <cmath>

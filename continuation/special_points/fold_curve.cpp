@@ -2,7 +2,7 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>
-#include <arcslip/continuation/special_points/inner_problem.hpp>
+#include <arcslip/continuation/special_points/augmented_problem.hpp>
 #include <arcslip/continuation/special_points/neighbours.hpp>
 #include <arcslip/continuation/special_points/on_curve.hpp>
 #include <arcslip/continuation/special_points/stationary.hpp>

@@ -2,7 +2,7 @@
 
 #include <arcslip/continuation/events/hopf.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/continuation/special_points/inner_problem.hpp>
+#include <arcslip/continuation/special_points/augmented_problem.hpp>
 #include <arcslip/continuation/special_points/neighbours.hpp>
 
 #include <Eigen/LU>

@@ -1,7 +1,7 @@
 #include <arcslip/continuation/special_points/multiple_point.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/continuation/special_points/reduction.hpp>
+#include <arcslip/continuation/special_points/lyapunov_schmidt.hpp>
 
 #include <algorithm>
 #include <array>
@@ -89,7 +89,7 @@ class Forms {
  public:
   explicit Forms(Eigen::Index variables) : second_(variables, 2), third_(variables, 3) {}
 
-  bool fit(Reduction& reduction, double r) {
+  bool fit(LyapunovSchmidt& reduction, double r) {
     const Eigen::Index k = reduction.right().cols(), m = k - 1;
     const Eigen::Index samples = 2 * third_.size() + 4;
     Matrix A2(samples, second_.size()), A3(samples, third_.size()), even(samples, m), odd(samples, m);
@@ -158,7 +158,7 @@ std::optional<std::vector<Vector>> zeros(const Forms& forms, Eigen::Index k, dou
 }
 
 // Corrects a zero of the forms to the zero of beta itself at radius r.
-bool correct(Reduction& reduction, const Forms& forms, double r, Vector& y, Vector& place) {
+bool correct(LyapunovSchmidt& reduction, const Forms& forms, double r, Vector& y, Vector& place) {
   const Eigen::Index k = y.size();
   Vector g(k);
   double before = 0;
@@ -176,7 +176,7 @@ bool correct(Reduction& reduction, const Forms& forms, double r, Vector& y, Vect
 }
 
 // The directions in which branches leave: those to their points at r, r/2 and r/4, extrapolated to 0.
-std::optional<std::vector<Vector>> half_branches(Reduction& reduction) {
+std::optional<std::vector<Vector>> half_branches(LyapunovSchmidt& reduction) {
   const Eigen::Index k = reduction.right().cols();
   const double r = sphere * (1 + reduction.size());
   Forms forms(k);
@@ -206,7 +206,7 @@ std::optional<MultiplePoint> locate_multiple_point(const Problem& problem, const
                                                    const Vector& guess, int rank_loss, double reach,
                                                    const MakeLinearSolver& make_solver) {
   if (rank_loss < 2 || rank_loss > largest_rank_loss || rank_loss > problem.size()) return {};
-  Reduction reduction(problem, p, along, rank_loss, make_solver);
+  LyapunovSchmidt reduction(problem, p, along, rank_loss, make_solver);
   Vector x = guess;
   Matrix H;
   const Eigen::Index m = rank_loss;

@@ -2,7 +2,7 @@
 // Finite differences of J and F_p within one smooth piece of F (difference.hpp).
 
 #include <arcslip/continuation/problem/difference.hpp>
-#include <arcslip/continuation/special_points/inner_problem.hpp>
+#include <arcslip/continuation/special_points/augmented_problem.hpp>
 
 #include <algorithm>
 #include <array>

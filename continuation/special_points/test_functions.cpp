@@ -2,7 +2,7 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/problem/difference.hpp>
-#include <arcslip/continuation/special_points/inner_problem.hpp>
+#include <arcslip/continuation/special_points/augmented_problem.hpp>
 
 #include <algorithm>
 #include <array>

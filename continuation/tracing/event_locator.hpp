@@ -16,7 +16,7 @@
 // A monitor may have zeros that are not events (Monitor::is_event). The events located in a step do not
 // depend on the steps before it: the probe is reset.
 
-#include <arcslip/continuation/tracing/curve_point.hpp>
+#include <arcslip/continuation/correction/curve_point.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
 
 #include <memory>

@@ -53,7 +53,7 @@ void Recorder::warn_of_unlocated(const Event& event) {
                   ": the nearest point of the branch that was computed stands for it (Event::located)");
 }
 
-bool Recorder::events_of(Trial& trial) {
+bool Recorder::events_of(TrialStep& trial) {
   bool go_on = true;
   const CurvePoint* from = &s_.here;
   for (const PassedKink& corner : trial.corners) {

@@ -1,13 +1,13 @@
 #pragma once
 // Records an accepted step: its points and events, in the branch and for the observer. Not installed.
 
+#include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/options.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
 #include <arcslip/continuation/tracing/event_locator.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
-#include <arcslip/continuation/tracing/trial.hpp>
+#include <arcslip/continuation/tracing/trial_step.hpp>
 
 #include <optional>
 #include <string>
@@ -35,7 +35,7 @@ class Recorder {
 
   /// The events of a step from the last point, section by section, with those of its corners, and the branch
   /// point on the way. False: the observer said stop.
-  bool events_of(Trial& trial);
+  bool events_of(TrialStep& trial);
 
   /// The first terminal event, if one was met: the branch ends there.
   const std::optional<CurvePoint>& terminal() const { return terminal_; }

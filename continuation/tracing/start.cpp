@@ -2,7 +2,7 @@
 
 #include <arcslip/continuation/problem/linear_solver.hpp>
 #include <arcslip/continuation/problem/text.hpp>
-#include <arcslip/continuation/special_points/inner_problem.hpp>
+#include <arcslip/continuation/special_points/augmented_problem.hpp>
 
 #include <algorithm>
 #include <cmath>

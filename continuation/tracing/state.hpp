@@ -2,9 +2,9 @@
 // Checkpoint of a trace: all state that determines how it continues. A trace resumed from it continues bit
 // for bit like the saved one, which saving does not affect.
 
+#include <arcslip/continuation/correction/corrector.hpp>
+#include <arcslip/continuation/correction/curve_point.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
-#include <arcslip/continuation/tracing/curve_point.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -73,13 +73,13 @@ void StepControl::predict(Vector& v) const {
 
 // Growth of the curve's error at equal step length, from the last step to this one: growth, as towards a
 // resonance, is expected to continue (Gustafsson, ACM Trans. Math. Softw. 20, 1994).
-double StepControl::error_growth(const Trial& trial) const {
+double StepControl::error_growth(const TrialStep& trial) const {
   if (!(s_.curve_error > 0) || !trial.corners.empty()) return 1;
   const double length = (trial.end.arclength - s_.here.arclength) / s_.last_step;
   return std::max(1.0, trial.curve_error / (s_.curve_error * std::pow(length, 4)));
 }
 
-double StepControl::after(const Trial& trial) const {
+double StepControl::after(const TrialStep& trial) const {
   double factor = trial.turn > 0 ? options_.step.angle / trial.turn : growth;
   const Correction& correction = trial.correction;
   const bool contraction_counts = correction.first > std::sqrt(options_.newton.tolerance);
@@ -93,7 +93,7 @@ double StepControl::after(const Trial& trial) const {
 // A step over kinks has a cubic on each section. The next one reaches as far into that of the largest error
 // as this allows: a section that ends at a kink has the same error in all steps that reach the kink, and
 // beyond a kink the branch may bend like the power 3/2 of the distance, as where contact begins.
-double StepControl::share_after_unresolved(const Trial& trial) const {
+double StepControl::share_after_unresolved(const TrialStep& trial) const {
   if (!(trial.curve_error > 1)) return unresolved_rejection;
   const double before = trial.worst_begin - s_.here.arclength, within = trial.worst_end - trial.worst_begin;
   const double factor = before > 0 ? curve_safety / std::cbrt(trial.curve_error * trial.curve_error)

@@ -1,10 +1,10 @@
 #pragma once
 // Step size control and prediction: section 8.4 of the theory. Not installed.
 
+#include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/continuation/problem/options.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
-#include <arcslip/continuation/tracing/trial.hpp>
+#include <arcslip/continuation/tracing/trial_step.hpp>
 
 #include <string>
 
@@ -29,12 +29,12 @@ class StepControl {
   void predict(Vector& v) const;
 
   /// The step after an accepted one.
-  double after(const Trial& trial) const;
+  double after(const TrialStep& trial) const;
   /// Factor of the step after a rejection with a converged corrector.
-  double share_after_unresolved(const Trial& trial) const;
+  double share_after_unresolved(const TrialStep& trial) const;
 
  private:
-  double error_growth(const Trial& trial) const;
+  double error_growth(const TrialStep& trial) const;
 
   const Options& options_;
   const State& s_;

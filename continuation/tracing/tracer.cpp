@@ -3,8 +3,8 @@
 #include <arcslip/continuation/events/monitor_calls.hpp>
 #include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/continuation/special_points/lyapunov_schmidt.hpp>
 #include <arcslip/continuation/special_points/multiple_point.hpp>
-#include <arcslip/continuation/special_points/reduction.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -117,18 +117,19 @@ Tracer::Impl::Outcome Tracer::Impl::attempt() {
     return refuse(Rejected::parameter_step, moved, most, Outcome::unresolved);
   end.arclength = s_.here.arclength + chord;
   evaluate(monitors_, main_, end);
-  if (!resolution_.passes_kinks(trial_)) trial_.corners = events_.corners(s_.here, end);
+  if (!interpolation_.passes_kinks(trial_)) trial_.corners = events_.corners(s_.here, end);
   if (!trial_.corners.empty()) {
     const CurvePoint& last = trial_.corners.back().beyond;
     trial_.length = last.arclength - s_.here.arclength + distance(main_, last.v, end.v);
     end.arclength = s_.here.arclength + trial_.length;
   }
   if (!settle_signs()) return refuse(Rejected::singular, 0, 0);
-  resolution_.measure_curve(trial_);
+  interpolation_.measure_curve(trial_);
   divide();
-  if (trial_.curve_error > 1 || resolution_.misses_kinks(trial_))
+  if (trial_.curve_error > 1 || interpolation_.misses_kinks(trial_))
     return refuse(Rejected::curve, trial_.curve_error, 1, Outcome::unresolved);
-  if (!resolution_.resolves_quantities(trial_)) return refuse(Rejected::quantity, 0, 0, Outcome::unresolved);
+  if (!interpolation_.resolves_quantities(trial_))
+    return refuse(Rejected::quantity, 0, 0, Outcome::unresolved);
   return take(trial_.kink ? s_.turn.step * kink_step : control_.after(trial_));
 }
 
@@ -219,8 +220,8 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::look_for_crossing() {
   const bool turned = changes_determinant(crossed);
   int modes = turned ? 1 : 0;
   if (crossed && (crossed->count % 2 == 1) == turned) modes = crossed->count;
-  if (crossed && modes == 0 && !crossed->reported && !resolution_.stretch_is_short(pair_share)) {
-    resolution_.begin_stretch(trial_.length);
+  if (crossed && modes == 0 && !crossed->reported && !interpolation_.stretch_is_short(pair_share)) {
+    interpolation_.begin_stretch(trial_.length);
     return refuse(Rejected::branch_points, 2, 1, Outcome::unresolved);
   }
   if (modes == 0) return {};
@@ -243,7 +244,7 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::look_for_crossing() {
 }
 
 // The modes that cross zero in the step, on one smooth piece.
-std::optional<CrossedModes> Tracer::Impl::count_modes() {
+std::optional<ModeCrossings> Tracer::Impl::count_modes() {
   if (trial_.end.piece != s_.here.piece) return {};
   if (!modes_) modes_ = std::make_unique<ModeCounter>(*problem_, s_.p, s_.free, s_.branch.counts);
   return modes_->between(s_.here, trial_.end, trial_.length, row_, main_.factors());
@@ -252,12 +253,12 @@ std::optional<CrossedModes> Tracer::Impl::count_modes() {
 // Whether the sign of the determinant changes in the step. A linear solver that does not know it leaves that
 // to the modes that cross zero, where these are counted, and to the determinant of a few more borders; where
 // pieces meet, it is not known.
-bool Tracer::Impl::changes_determinant(const std::optional<CrossedModes>& crossed) {
+bool Tracer::Impl::changes_determinant(const std::optional<ModeCrossings>& crossed) {
   const CurvePoint& to = trial_.end;
   if (to.orientation != 0 && s_.here.orientation != 0) return to.orientation != s_.here.orientation;
   if (to.piece != s_.here.piece) return false;
   const TransverseSpace::Sign sign = transverse_.compare(trial_);
-  const auto is_odd = [](const CrossedModes& modes) { return modes.count % 2 == 1; };
+  const auto is_odd = [](const ModeCrossings& modes) { return modes.count % 2 == 1; };
   if (crossed && (crossed->count > 0 || modes_->counts_all())) return is_odd(*crossed);
   if (sign != TransverseSpace::Sign::open) return sign == TransverseSpace::Sign::changed;
   const auto counted = crossed ? crossed : count_modes();

@@ -60,11 +60,11 @@ bool Tracer::Impl::step_beyond_corner() {
   trial_.length = end.arclength - s_.here.arclength;
   trial_.kink = true;
   if (!measure()) return false;
-  resolution_.measure_curve(trial_);
+  interpolation_.measure_curve(trial_);
   if (trial_.curve_error > 1) return false;
   trial_.curve_error = 0;  // the next step is not chosen by it
   divide();
-  return resolution_.resolves_quantities(trial_) && take(s_.step) != Outcome::rejected;
+  return interpolation_.resolves_quantities(trial_) && take(s_.step) != Outcome::rejected;
 }
 
 }  // namespace arcslip::continuation

@@ -1,22 +1,22 @@
 #pragma once
 // The parts of a tracer, and the loop around them: section 8 of the theory. Not installed.
 
+#include <arcslip/continuation/correction/corrector.hpp>
+#include <arcslip/continuation/correction/first_point.hpp>
+#include <arcslip/continuation/correction/mode_crossings.hpp>
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/continuation/problem/options.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
-#include <arcslip/continuation/tracing/crossed_modes.hpp>
-#include <arcslip/continuation/tracing/ends.hpp>
 #include <arcslip/continuation/tracing/event_locator.hpp>
-#include <arcslip/continuation/tracing/first_point.hpp>
+#include <arcslip/continuation/tracing/interpolation_control.hpp>
 #include <arcslip/continuation/tracing/jacobian_watch.hpp>
 #include <arcslip/continuation/tracing/recorder.hpp>
-#include <arcslip/continuation/tracing/resolution.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
 #include <arcslip/continuation/tracing/step_control.hpp>
+#include <arcslip/continuation/tracing/termination.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
 #include <arcslip/continuation/tracing/transverse_space.hpp>
-#include <arcslip/continuation/tracing/trial.hpp>
+#include <arcslip/continuation/tracing/trial_step.hpp>
 
 #include <chrono>
 #include <memory>
@@ -55,8 +55,8 @@ class Tracer::Impl {
   void count_rejection();
   bool passes_corner_instead();
   std::optional<Outcome> look_for_crossing();
-  std::optional<CrossedModes> count_modes();
-  bool changes_determinant(const std::optional<CrossedModes>& crossed);
+  std::optional<ModeCrossings> count_modes();
+  bool changes_determinant(const std::optional<ModeCrossings>& crossed);
   bool is_kink();
   bool measure();
   bool settle_signs();
@@ -87,10 +87,10 @@ class Tracer::Impl {
   std::unique_ptr<ModeCounter> modes_;  // made at its first use
   TransverseSpace transverse_;
   StepControl control_;
-  Resolution resolution_;
+  InterpolationControl interpolation_;
   JacobianWatch jacobian_;
   Recorder record_;
-  Trial trial_;
+  TrialStep trial_;
   Vector row_, v_;            // n + 1
   long rejected_before_ = 0;  // steps, before the last point
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();

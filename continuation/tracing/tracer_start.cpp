@@ -1,10 +1,10 @@
 // Start of a trace: from a start point, or from a saved state.
 
+#include <arcslip/continuation/correction/first_point.hpp>
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/continuation/special_points/augmented_problem.hpp>
 #include <arcslip/continuation/special_points/dependent_equations.hpp>
-#include <arcslip/continuation/special_points/inner_problem.hpp>
-#include <arcslip/continuation/special_points/reduction.hpp>
-#include <arcslip/continuation/tracing/first_point.hpp>
+#include <arcslip/continuation/special_points/lyapunov_schmidt.hpp>
 #include <arcslip/continuation/tracing/start.hpp>
 #include <arcslip/continuation/tracing/tracer_impl.hpp>
 
@@ -104,7 +104,7 @@ Tracer::Impl::Impl(std::shared_ptr<const Problem> problem, State state, const Op
       counts_modes_(looks_for_branch_points(monitors_)),
       transverse_(main_, s_),
       control_(options_, s_, main_),
-      resolution_(options_, monitors_, events_.looks_for_kinks(), s_, main_),
+      interpolation_(options_, monitors_, events_.looks_for_kinks(), s_, main_),
       jacobian_(*problem_, options_, s_),
       record_(options_, monitors_, std::move(observer), s_, main_, events_),
       row_(n_ + 1),

@@ -70,7 +70,7 @@ double TransverseSpace::determinant(const Vector& one, const Vector& other) {
          a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
 }
 
-TransverseSpace::Sign TransverseSpace::compare(Trial& trial) {
+TransverseSpace::Sign TransverseSpace::compare(TrialStep& trial) {
   const auto& [b, basis] = s_.transverse;
   if (b.size() == 0) return Sign::kept;
   trial.has_basis = measure(trial.end, trial.basis);
@@ -80,7 +80,7 @@ TransverseSpace::Sign TransverseSpace::compare(Trial& trial) {
   return cosines > 0 ? Sign::kept : Sign::changed;
 }
 
-void TransverseSpace::keep(Trial& trial, const CurvePoint& place) {
+void TransverseSpace::keep(TrialStep& trial, const CurvePoint& place) {
   if (place.orientation != 0) return;
   if (s_.transverse.b.size() == 0) {
     choose_borders(place.v.size());

@@ -15,10 +15,10 @@
 // 0, the bordered matrix is nearly singular itself, and the sign of det G does not tell. k = 3: X holds the
 // modes nearest to zero, so that one of them may cross it next to others that do not. Not installed.
 
-#include <arcslip/continuation/tracing/corrector.hpp>
-#include <arcslip/continuation/tracing/curve_point.hpp>
+#include <arcslip/continuation/correction/corrector.hpp>
+#include <arcslip/continuation/correction/curve_point.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
-#include <arcslip/continuation/tracing/trial.hpp>
+#include <arcslip/continuation/tracing/trial_step.hpp>
 
 namespace arcslip::continuation {
 
@@ -30,11 +30,11 @@ class TransverseSpace {
   enum class Sign { kept, changed, open };
 
   /// From the last point to the end of a step that is tried, whose factors are at hand.
-  Sign compare(Trial& trial);
+  Sign compare(TrialStep& trial);
 
   /// Takes over the space of a point at which the branch goes on, whose factors are at hand. Does nothing
   /// where the sign of the determinant is known.
-  void keep(Trial& trial, const CurvePoint& place);
+  void keep(TrialStep& trial, const CurvePoint& place);
 
  private:
   void choose_borders(Eigen::Index size);

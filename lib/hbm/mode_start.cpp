@@ -1,7 +1,7 @@
 #include <arcslip/hbm/mode_start.hpp>
 
+#include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <arcslip/stability/variational_integrator.hpp>
 
-#include <arcslip/continuation/linear/widest.hpp>
+#include <arcslip/continuation/linear/cpu_dispatch.hpp>
 
 #include <algorithm>
 #include <cmath>

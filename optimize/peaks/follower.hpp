@@ -1,8 +1,8 @@
 #pragma once
 // Tracking of one peak from design to design, by Newton's method on its equations. Not installed.
 
+#include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/continuation/problem/problem.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
 
 #include <memory>
 #include <span>

@@ -5,9 +5,9 @@
 #include "continuation/hopf_problems.hpp"
 #include "lib/laws/coupled_spring.hpp"
 
+#include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/continuation/special_points/hopf_curve.hpp>
 #include <arcslip/continuation/special_points/stationary.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/laws/hysteresis/bouc_wen.hpp>
 #include <arcslip/laws/hysteresis/jenkins.hpp>

@@ -2,7 +2,7 @@
 
 #include "continuation/problems.hpp"
 
-#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/problem/problem_from_functions.hpp>
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 
 #include "continuation/problems.hpp"
 
-#include <arcslip/continuation/tracing/corrector.hpp>
+#include <arcslip/continuation/correction/corrector.hpp>
 
 #include <algorithm>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "catch.hpp"
 
-#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/problem/problem_from_functions.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
 
 #include <functional>

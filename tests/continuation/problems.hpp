@@ -1,7 +1,7 @@
 #pragma once
 // Test problems with known folds; numbers from tests/reference/continuation.json.
 
-#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/problem/problem_from_functions.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // Linear solvers as users write them: around a sparse LU of J alone, by Eigen, which knows no determinant.
 
 #include <arcslip/continuation/linear/linear_solvers.hpp>
-#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/problem/problem_from_functions.hpp>
 
 #include <Eigen/SparseLU>
 #include <Eigen/SparseQR>

@@ -1,6 +1,6 @@
 // Where a step leaves its window, and the way back to the bound.
 
-#include <arcslip/continuation/tracing/ends.hpp>
+#include <arcslip/continuation/tracing/termination.hpp>
 
 #include "catch.hpp"
 

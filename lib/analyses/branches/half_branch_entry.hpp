@@ -13,8 +13,8 @@
 // regular, and phi, J_XX phi = 0, is the tangent of the branch that leaves. Its two halves are one motion and
 // its image by that shift.
 
+#include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
 #include <arcslip/hbm/problem.hpp>
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 #include <arcslip/analyses/branches/passages.hpp>
 
 #include <arcslip/analyses/branches/branch_description.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
+#include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/results/event_kinds.hpp>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include <arcslip/analyses/curves/special_curve.hpp>
 
-#include <arcslip/continuation/tracing/corrector.hpp>
+#include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/fourier/series.hpp>
 #include <arcslip/observables/amplitude.hpp>
 

@@ -1,6 +1,6 @@
 #include <arcslip/analyses/responses/stick_offset_range.hpp>
 
-#include <arcslip/continuation/tracing/corrector.hpp>
+#include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/observables/amplitude.hpp>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <arcslip/hbm/linear/elimination.hpp>
 
-#include <arcslip/continuation/linear/widest.hpp>
+#include <arcslip/continuation/linear/cpu_dispatch.hpp>
 
 #include <algorithm>
 #include <utility>

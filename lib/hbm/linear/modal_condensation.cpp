@@ -1,6 +1,6 @@
 #include <arcslip/hbm/linear/condensation.hpp>
 
-#include <arcslip/continuation/linear/widest.hpp>
+#include <arcslip/continuation/linear/cpu_dispatch.hpp>
 #include <arcslip/hbm/linear/in_place_elimination.hpp>
 
 #include <algorithm>

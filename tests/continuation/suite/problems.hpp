@@ -5,7 +5,7 @@
 // "test_con N" is problem N of J. Burkardt's TEST_CON, the sample problems of PITCON (Rheinboldt and
 // Burkardt, ACM Trans. Math. Softw. 9, 1983).
 
-#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/problem/problem_from_functions.hpp>
 
 #include <cstdint>
 #include <functional>

@@ -1,5 +1,5 @@
 // Uses each of the three libraries once. Exit code 0 where all of them answer as they should.
-#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/problem/problem_from_functions.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
 #include <arcslip/optimize/nlopt/minimize.hpp>
 #include <arcslip/scene/scene.hpp>

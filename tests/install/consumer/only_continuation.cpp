@@ -1,4 +1,4 @@
-#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/problem/problem_from_functions.hpp>
 
 using namespace arcslip::continuation;
 

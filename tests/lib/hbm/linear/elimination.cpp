@@ -1,6 +1,6 @@
 #include "catch.hpp"
 
-#include <arcslip/continuation/linear/widest.hpp>
+#include <arcslip/continuation/linear/cpu_dispatch.hpp>
 #include <arcslip/hbm/linear/elimination.hpp>
 
 #include <Eigen/LU>

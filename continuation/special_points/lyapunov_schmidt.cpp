@@ -1,4 +1,4 @@
-#include <arcslip/continuation/special_points/reduction.hpp>
+#include <arcslip/continuation/special_points/lyapunov_schmidt.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>
@@ -34,8 +34,8 @@ Matrix generic_matrix(Eigen::Index rows, Eigen::Index columns, double phase) {
 
 }  // namespace
 
-Reduction::Reduction(const Problem& problem, const Vector& p, int along, int rank_loss,
-                     const MakeLinearSolver& make_solver)
+LyapunovSchmidt::LyapunovSchmidt(const Problem& problem, const Vector& p, int along, int rank_loss,
+                                 const MakeLinearSolver& make_solver)
     : problem_(problem),
       p_(p),
       along_(along),
@@ -56,14 +56,14 @@ Reduction::Reduction(const Problem& problem, const Vector& p, int along, int ran
   C_ = scale_.cwiseInverse().asDiagonal() * orthonormal_columns(generic_matrix(n_ + 1, m_ + 1, 0.5));
 }
 
-bool Reduction::evaluate(const Vector& x, Needs needs) try {
+bool LyapunovSchmidt::evaluate(const Vector& x, Needs needs) try {
   p_[along_] = x[n_];
   return at_->move_to(x.head(n_), p_, needs) == Evaluated::ok && at_->residual().allFinite();
 } catch (const std::exception&) {  // outside the domain, as it says
   return false;
 }
 
-bool Reduction::factorize() try {
+bool LyapunovSchmidt::factorize() try {
   at_->parameter_derivative(along_, F_p_);
   if (!F_p_.allFinite()) return false;
   if (!M_) M_ = suitable_solver(at_->jacobian());
@@ -84,13 +84,13 @@ bool Reduction::factorize() try {
   return false;
 }
 
-void Reduction::solve() {
+void LyapunovSchmidt::solve() {
   M_->solve(rhs_);
   rhs_[n_ + 1] += shift_ * rhs_[n_];
 }
 
 // w_i as the rows of its transpose. False: no transposed solves, or not finite.
-bool Reduction::left_vectors(Matrix& left) {
+bool LyapunovSchmidt::left_vectors(Matrix& left) {
   left.resize(n_, m_);
   for (Eigen::Index i = 0; i < m_; ++i) {
     rhs_.setZero();
@@ -105,7 +105,7 @@ bool Reduction::left_vectors(Matrix& left) {
 
 // w_i . c for each column c, m rows: by w_i, or without them by forward solves, for M (x, beta) = (c, 0) has
 // beta_i = w_i . c.
-Matrix Reduction::left_parts(const Matrix& left, const Matrix& changes) {
+Matrix LyapunovSchmidt::left_parts(const Matrix& left, const Matrix& changes) {
   if (transposed_) return left.transpose() * changes;
   Matrix parts(m_, changes.cols());
   for (Eigen::Index j = 0; j < changes.cols(); ++j) {
@@ -117,7 +117,7 @@ Matrix Reduction::left_parts(const Matrix& left, const Matrix& changes) {
   return parts;
 }
 
-bool Reduction::null_spaces() {
+bool LyapunovSchmidt::null_spaces() {
   for (Eigen::Index j = 0; j <= m_; ++j) {
     rhs_.setZero();
     rhs_[n_ + j] = 1;
@@ -128,7 +128,7 @@ bool Reduction::null_spaces() {
   return V_.allFinite() && G_.allFinite();
 }
 
-bool Reduction::move_to(const Vector& x) {
+bool LyapunovSchmidt::move_to(const Vector& x) {
   x_ = x;
   if (!evaluate(x_, Needs::jacobian)) return false;
   for (int k = 0; k < adaptions; ++k) {
@@ -143,14 +143,14 @@ bool Reduction::move_to(const Vector& x) {
   return factorize() && null_spaces();
 }
 
-Vector Reduction::settle() {
+Vector LyapunovSchmidt::settle() {
   Vector place;
   const Vector found = beta(Vector::Zero(m_ + 1), place);
   if (found.allFinite()) x_ = place;
   return found;
 }
 
-bool Reduction::form(Matrix& H) {
+bool LyapunovSchmidt::form(Matrix& H) {
   H.resize(m_ * (m_ + 1), m_ + 1);
   Matrix left;
   if (!left_vectors(left) && transposed_) return false;
@@ -175,7 +175,7 @@ bool Reduction::form(Matrix& H) {
   return H.allFinite();
 }
 
-Vector Reduction::beta(const Vector& y, Vector& place) {
+Vector LyapunovSchmidt::beta(const Vector& y, Vector& place) {
   const Vector none = Vector::Constant(m_, std::numeric_limits<double>::quiet_NaN());
   place = x_ + V_ * y;
   Vector found = Vector::Zero(m_);
@@ -209,7 +209,7 @@ std::string doubt_of_isolation(const Problem& problem, const Vector& v, const Ve
                                const MakeLinearSolver& make_solver) try {
   if (std::string dependence = doubt_of_dependence(problem, v, p, along); !dependence.empty())
     return dependence;
-  Reduction reduction(problem, p, along, 1, make_solver);
+  LyapunovSchmidt reduction(problem, p, along, 1, make_solver);
   if (!reduction.move_to(v) || !reduction.has_left() || !reduction.settle().allFinite() ||
       !reduction.move_to(reduction.x()))
     return {};

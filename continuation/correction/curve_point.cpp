@@ -1,4 +1,4 @@
-#include <arcslip/continuation/tracing/curve_point.hpp>
+#include <arcslip/continuation/correction/curve_point.hpp>
 
 #include <arcslip/continuation/events/monitor_calls.hpp>
 

@@ -2,9 +2,9 @@
 // A point of a branch during tracing: a solution with its oriented tangent and the values of the monitors.
 // The tracer keeps the last two; events are located between them.
 
+#include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
 
 #include <algorithm>
 #include <cmath>

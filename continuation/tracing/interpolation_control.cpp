@@ -1,6 +1,6 @@
-#include <arcslip/continuation/tracing/resolution.hpp>
+#include <arcslip/continuation/tracing/interpolation_control.hpp>
 
-#include <arcslip/continuation/tracing/crossed_modes.hpp>
+#include <arcslip/continuation/correction/mode_crossings.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ bool is_resolved(double a, double b, double bend) {
 
 }  // namespace
 
-bool Resolution::passes_kinks(Trial& trial) {
+bool InterpolationControl::passes_kinks(TrialStep& trial) {
   const CurvePoint &from = s_.here, &to = trial.end;
   if (!looks_for_kinks_ || from.piece == to.piece || from.part != to.part) return false;
   const double length = distance(main_, from.v, to.v);
@@ -50,7 +50,7 @@ bool Resolution::passes_kinks(Trial& trial) {
 }
 
 // Whether no slope of a monitored quantity can pass zero where the tangent turns by this angle.
-bool Resolution::keeps_signs(const CurvePoint& from, const CurvePoint& to, double turn) const {
+bool InterpolationControl::keeps_signs(const CurvePoint& from, const CurvePoint& to, double turn) const {
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
     if (monitors_[m].kind == MonitorKind::kink) return false;
     if (!monitors_[m].quantity) continue;
@@ -65,7 +65,7 @@ bool Resolution::keeps_signs(const CurvePoint& from, const CurvePoint& to, doubl
   return true;
 }
 
-void Resolution::measure_curve(Trial& trial) {
+void InterpolationControl::measure_curve(TrialStep& trial) {
   if (trial.passes_kinks) return;
   trial.curve_error = 0;
   trial.other_piece_between = false;
@@ -87,7 +87,7 @@ void Resolution::measure_curve(Trial& trial) {
 }
 
 // The error of one cubic: in its middle, where it is largest up to the variation of the fourth derivative.
-double Resolution::curve_error(const CurvePoint& from, Trial& trial, const CurvePoint& to) {
+double InterpolationControl::curve_error(const CurvePoint& from, TrialStep& trial, const CurvePoint& to) {
   const double length = distance(main_, from.v, to.v);
   if (!(length > 0)) return 0;
   hermite(from.v, from.tangent, to.v, to.tangent, length, 0.5, middle_);
@@ -98,19 +98,19 @@ double Resolution::curve_error(const CurvePoint& from, Trial& trial, const Curve
 }
 
 // In the middle of the cubic. Infinite without a tolerance.
-double Resolution::allowed_error(const CurvePoint& from, const CurvePoint& to) const {
+double InterpolationControl::allowed_error(const CurvePoint& from, const CurvePoint& to) const {
   if (!(options_.step.curve_tolerance > 0)) return std::numeric_limits<double>::infinity();
   const double size = std::max({main_.norm_u(from.v), main_.norm_u(to.v), smallest_relevant_curve});
   return middle_share * options_.step.curve_tolerance * size;
 }
 
-bool Resolution::misses_kinks(const Trial& trial) {
+bool InterpolationControl::misses_kinks(const TrialStep& trial) {
   if (!trial.other_piece_between || stretch_is_short(unresolved_share)) return false;
   begin_stretch(trial.length);
   return true;
 }
 
-bool Resolution::resolves_quantities(Trial& trial) {
+bool InterpolationControl::resolves_quantities(TrialStep& trial) {
   trial.chord_error = 0;
   if (stretch_is_short(unresolved_share)) return true;
   const bool all = trial.all_sections(
@@ -121,7 +121,7 @@ bool Resolution::resolves_quantities(Trial& trial) {
 
 // The same for one section. The bend of the slope between its ends follows from the change of the quantity,
 // and from the preceding slope.
-bool Resolution::resolves(const CurvePoint& from, const CurvePoint& to, Trial& trial) const {
+bool InterpolationControl::resolves(const CurvePoint& from, const CurvePoint& to, TrialStep& trial) const {
   const double length = to.arclength - from.arclength;
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
     if (!monitors_[m].quantity) continue;
@@ -153,8 +153,8 @@ bool Resolution::resolves(const CurvePoint& from, const CurvePoint& to, Trial& t
 // Deviation of the curve of a quantity q over p from its chord in a step, relative to q along q or to p along
 // p, whichever is less, as on logarithmic axes. The middle of three points at ds/2 is off the chord by a
 // parallelogram of the slopes at the ends.
-double Resolution::chord_departure(const CurvePoint& from, const CurvePoint& to, std::size_t m,
-                                   double length) const {
+double InterpolationControl::chord_departure(const CurvePoint& from, const CurvePoint& to, std::size_t m,
+                                             double length) const {
   const Eigen::Index n = to.v.size() - 1;
   const double area =
       std::abs(from.tangent[n] * to.monitors[m] - to.tangent[n] * from.monitors[m]) * length * length / 8;
@@ -163,11 +163,11 @@ double Resolution::chord_departure(const CurvePoint& from, const CurvePoint& to,
          std::max(q * std::abs(to.v[n] - from.v[n]), p * std::abs(to.quantities[m] - from.quantities[m]));
 }
 
-bool Resolution::stretch_is_short(double share) const {
+bool InterpolationControl::stretch_is_short(double share) const {
   return s_.here.arclength <= s_.unresolved_end && s_.step <= share * s_.unresolved_step;
 }
 
-void Resolution::begin_stretch(double length) {
+void InterpolationControl::begin_stretch(double length) {
   if (s_.here.arclength <= s_.unresolved_end) return;
   if (s_.here.arclength > s_.unresolved_end + length) s_.unresolved_step = 0;
   s_.unresolved_end = s_.here.arclength + length;

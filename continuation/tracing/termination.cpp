@@ -1,4 +1,4 @@
-#include <arcslip/continuation/tracing/ends.hpp>
+#include <arcslip/continuation/tracing/termination.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
 
@@ -45,7 +45,7 @@ std::optional<Exit> leaves(const Window& window, const CurvePoint& from, const C
   return {};
 }
 
-std::optional<Exit> cut_at_exit(const Window& window, const CurvePoint& here, Trial& trial) {
+std::optional<Exit> cut_at_exit(const Window& window, const CurvePoint& here, TrialStep& trial) {
   const CurvePoint* from = &here;
   for (std::size_t k = 0; k < trial.corners.size(); ++k) {
     const CurvePoint& to = trial.corners[k].before;

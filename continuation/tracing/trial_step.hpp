@@ -1,9 +1,9 @@
 #pragma once
 // An attempted step, until it is accepted or rejected. Not installed.
 
+#include <arcslip/continuation/correction/corrector.hpp>
+#include <arcslip/continuation/correction/curve_point.hpp>
 #include <arcslip/continuation/problem/options.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
-#include <arcslip/continuation/tracing/curve_point.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 namespace arcslip::continuation {
 
 /// A tracer has one, so that its vectors are allocated once.
-struct Trial {
+struct TrialStep {
   CurvePoint end;
   Correction correction;
   double length = 0;  // arclength of the step, by way of its corners

@@ -5,8 +5,8 @@
 // points with larger corrections; then pseudo-transient continuation (pseudo_transient.hpp) in both
 // directions of time. The solution that is found need not be the nearest one.
 
+#include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/continuation/problem/options.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
 
 #include <functional>
 #include <string>

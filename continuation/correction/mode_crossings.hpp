@@ -12,9 +12,9 @@
 // A mode that crosses zero and returns within half a step is not counted, but detected by the curvature of
 // the mode: between a at the first point, m in the middle and 1 at the second.
 
+#include <arcslip/continuation/correction/curve_point.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/continuation/problem/linear_solver.hpp>
-#include <arcslip/continuation/tracing/curve_point.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -25,7 +25,7 @@ namespace arcslip::continuation {
 /// Times the measured bend of a mode, or of the slope of a quantity.
 inline constexpr double pair_safety = 8;
 
-struct CrossedModes {
+struct ModeCrossings {
   int count = 0;
   bool reported = true;  // false: a mode is curved enough to cross zero and return
   bool at_zero = false;  // a mode is zero to rounding at the second point, and has no sign there
@@ -38,8 +38,8 @@ class ModeCounter {
 
   /// Between two points on one smooth piece, `length` apart. row: r of the factors at `to`. Returns nothing
   /// if J cannot be evaluated between them, or another piece of F lies between.
-  std::optional<CrossedModes> between(const CurvePoint& from, const CurvePoint& to, double length,
-                                      const Vector& row, const LinearSolver& at_to);
+  std::optional<ModeCrossings> between(const CurvePoint& from, const CurvePoint& to, double length,
+                                       const Vector& row, const LinearSolver& at_to);
 
   /// Whether all modes are computed, so that none is missed.
   bool counts_all() const;

@@ -9,7 +9,7 @@
 // Equilibria that attract in one of the directions of time are reached from their basins; many others too,
 // since long steps damp all motions. Not installed.
 
-#include <arcslip/continuation/tracing/corrector.hpp>
+#include <arcslip/continuation/correction/corrector.hpp>
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-#include <arcslip/continuation/special_points/inner_problem.hpp>
+#include <arcslip/continuation/special_points/augmented_problem.hpp>
 
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 

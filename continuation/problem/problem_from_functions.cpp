@@ -1,4 +1,4 @@
-#include <arcslip/continuation/problem/functions.hpp>
+#include <arcslip/continuation/problem/problem_from_functions.hpp>
 
 #include <arcslip/continuation/problem/difference.hpp>
 #include <arcslip/continuation/problem/linear_solver.hpp>
@@ -157,7 +157,7 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     }
   }
 
-  // dF/dp: functions.hpp says by which step. p: the entry of p_.
+  // dF/dp: problem_from_functions.hpp says by which step. p: the entry of p_.
   void parameter_difference(double& p, const Parameter& parameter, Out dF) const {
     const auto here = piece_of_differences();
     const double at = std::abs(p);

@@ -2,21 +2,21 @@
 // Whether a step resolves the curve along it, its kinks, and the extrema of monitored quantities.
 // Sections 8.4 and 8.5 of the theory. Not installed.
 
+#include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/options.hpp>
-#include <arcslip/continuation/tracing/corrector.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
-#include <arcslip/continuation/tracing/trial.hpp>
+#include <arcslip/continuation/tracing/trial_step.hpp>
 
 #include <vector>
 
 namespace arcslip::continuation {
 
-class Resolution {
+class InterpolationControl {
  public:
   /// All outlive this.
-  Resolution(const Options& options, const std::vector<Monitor>& monitors, bool looks_for_kinks, State& state,
-             Corrector& corrector)
+  InterpolationControl(const Options& options, const std::vector<Monitor>& monitors, bool looks_for_kinks,
+                       State& state, Corrector& corrector)
       : options_(options),
         monitors_(monitors),
         looks_for_kinks_(looks_for_kinks),
@@ -26,32 +26,32 @@ class Resolution {
   /// Whether a step between two pieces may go over its kinks as if it were smooth, as they turn the branch
   /// too little to change the sign of any monitored slope, or to be seen. Decided by the distance of the
   /// branch from the cubic. Fills passes_kinks, and then curve_error.
-  bool passes_kinks(Trial& trial);
+  bool passes_kinks(TrialStep& trial);
 
   /// Fills curve_error, the largest error of the cubics along the smooth pieces relative to the tolerance,
   /// and other_piece_between.
-  void measure_curve(Trial& trial);
+  void measure_curve(TrialStep& trial);
 
   /// Whether the step contains kinks that were not found, two between ends on one piece or one that is hard
   /// to locate: then it is shortened, down to a limit, as the cubic may touch another piece where the branch
   /// does not.
-  bool misses_kinks(const Trial& trial);
+  bool misses_kinks(const TrialStep& trial);
 
   /// Whether each monitored quantity has no more extrema in the step than implied by its slopes at the ends
   /// of the sections. Next to a kink a slope may bend however short the step: within one stretch of the
   /// branch the step is shortened to a fixed fraction of the first one at most. Fills chord_error and
   /// unresolved.
-  bool resolves_quantities(Trial& trial);
+  bool resolves_quantities(TrialStep& trial);
 
   /// Whether steps have been shortened enough in an unresolved stretch of the branch.
   bool stretch_is_short(double share) const;
   void begin_stretch(double length);
 
  private:
-  double curve_error(const CurvePoint& from, Trial& trial, const CurvePoint& to);
+  double curve_error(const CurvePoint& from, TrialStep& trial, const CurvePoint& to);
   double allowed_error(const CurvePoint& from, const CurvePoint& to) const;
   bool keeps_signs(const CurvePoint& from, const CurvePoint& to, double turn) const;
-  bool resolves(const CurvePoint& from, const CurvePoint& to, Trial& trial) const;
+  bool resolves(const CurvePoint& from, const CurvePoint& to, TrialStep& trial) const;
   double chord_departure(const CurvePoint& from, const CurvePoint& to, std::size_t m, double length) const;
 
   const Options& options_;

@@ -1,10 +1,10 @@
 #pragma once
 // End conditions of a trace: the window, the limits of its options, a closed loop. Not installed.
 
+#include <arcslip/continuation/correction/curve_point.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/continuation/problem/options.hpp>
-#include <arcslip/continuation/tracing/curve_point.hpp>
-#include <arcslip/continuation/tracing/trial.hpp>
+#include <arcslip/continuation/tracing/trial_step.hpp>
 
 #include <optional>
 
@@ -28,7 +28,7 @@ std::optional<Exit> leaves(const Window& window, const CurvePoint& from, const C
 
 /// The same of a step from `here`, section by section: trial.end becomes the end of the section in which it
 /// leaves, and later corners are dropped.
-std::optional<Exit> cut_at_exit(const Window& window, const CurvePoint& here, Trial& trial);
+std::optional<Exit> cut_at_exit(const Window& window, const CurvePoint& here, TrialStep& trial);
 
 /// Moves `place` from beyond the window back to the bound, with its tangent. False if this branch has no such
 /// solution: none is found, it is farther away than the length of the step, or its determinant has another

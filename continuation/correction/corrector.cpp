@@ -1,4 +1,4 @@
-#include <arcslip/continuation/tracing/corrector.hpp>
+#include <arcslip/continuation/correction/corrector.hpp>
 
 #include <arcslip/continuation/linear/finite.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>

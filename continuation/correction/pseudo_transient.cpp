@@ -1,4 +1,4 @@
-#include <arcslip/continuation/tracing/pseudo_transient.hpp>
+#include <arcslip/continuation/correction/pseudo_transient.hpp>
 
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 

@@ -9,12 +9,12 @@
 
 namespace arcslip::continuation {
 
-class Reduction {
+class LyapunovSchmidt {
  public:
   /// rank_loss: m, 1 or more. Without transposed solves W stays generic, which is regular as well but in
   /// general not as well conditioned.
-  Reduction(const Problem& problem, const Vector& p, int along, int rank_loss,
-            const MakeLinearSolver& make_solver);
+  LyapunovSchmidt(const Problem& problem, const Vector& p, int along, int rank_loss,
+                  const MakeLinearSolver& make_solver);
 
   /// Moves to x, with C and W from the null spaces of A there. False if F or its linearization cannot be
   /// evaluated, or M is singular.
@@ -65,9 +65,9 @@ class Reduction {
 // time shifts) and no phase condition.
 
 /// A sentence if F = 0, to rounding, all around v = (u, p) in the plane of the two directions in which [J
-/// F_p] is smallest: beta(y) of reduction.hpp with m = 1 is then zero on a circle, where it is of order |y|
-/// at a regular point and of order |y|^2 at a branch point. Or if combinations of the equations vanish for
-/// all u, which it names. Empty otherwise.
+/// F_p] is smallest: beta(y) of lyapunov_schmidt.hpp with m = 1 is then zero on a circle, where it is of
+/// order |y| at a regular point and of order |y|^2 at a branch point. Or if combinations of the equations
+/// vanish for all u, which it names. Empty otherwise.
 std::string doubt_of_isolation(const Problem& problem, const Vector& v, const Vector& p, int along,
                                const MakeLinearSolver& make_solver);
 

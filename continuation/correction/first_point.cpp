@@ -1,6 +1,6 @@
-#include <arcslip/continuation/tracing/first_point.hpp>
+#include <arcslip/continuation/correction/first_point.hpp>
 
-#include <arcslip/continuation/tracing/pseudo_transient.hpp>
+#include <arcslip/continuation/correction/pseudo_transient.hpp>
 
 namespace arcslip::continuation {
 namespace {

@@ -1,4 +1,4 @@
-#include <arcslip/continuation/tracing/crossed_modes.hpp>
+#include <arcslip/continuation/correction/mode_crossings.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 
@@ -121,13 +121,13 @@ bool ModeCounter::basis() {
   return true;
 }
 
-std::optional<CrossedModes> ModeCounter::between(const CurvePoint& from, const CurvePoint& to, double length,
-                                                 const Vector& row, const LinearSolver& at_to) {
+std::optional<ModeCrossings> ModeCounter::between(const CurvePoint& from, const CurvePoint& to, double length,
+                                                  const Vector& row, const LinearSolver& at_to) {
   row_ = &row;
   at_to_ = &at_to;
   hermite(from.v, from.tangent, to.v, to.tangent, length, 0.5, middle_);
   if (!evaluate(middle_, from.piece)) return {};
-  CrossedModes result;
+  ModeCrossings result;
   result.at_zero = !basis();  // B_1 is singular to the last bit
   if (result.at_zero || Q_.cols() == 0) return result;
   const Matrix middle = Q_.transpose() * Y_;
