@@ -311,70 +311,96 @@ Correction Corrector::newton(Vector& v, const Vector& row, int iterations, Dampi
 // result: that of the chord steps before, if any.
 Correction Corrector::newton(Vector& v, const Vector& row, int iterations, Damping damping,
                              Correction result) {
-  bool crossed = false;  // a kink by the last correction: beyond it is the result if there is no better one
-  const auto failed = [&]() -> Correction {
-    if (!crossed) return result;
-    v = across_;
-    p_[free_] = v[v.size() - 1];
-    result.evaluated = result.converged = true;
-    result.singular = result.linear = false;
-    return result;
-  };
-  const bool is_damped = damping == Damping::natural;
-  double before = result.last;                // size of the correction that led to v
-  std::optional<std::uint64_t> piece_before;  // of F, where that began, if it was small
-  for (int k = 0; k < iterations; ++k, ++result.iterations) {
-    if (is_damped && result.linear && k >= options_.iterations) return failed();
-    if (!evaluate(v, Needs::jacobian)) {
-      result.evaluated = false;
-      return failed();
-    }
-    if (!factorize(v, row)) {
-      result.singular = true;
-      return failed();
-    }
-    solve(dv_);
-    const double now = size(dv_, v);
-    if (result.first == 0) result.first = now;
-    if (result.contraction == 0 && before > 0) result.contraction = now / before;
-    if (k == 0 && before > 0) memory_.contraction = std::max(now / before, 1e-4);
-    result.last = now;
-    // At a kink corrections may not decrease either: cycling between two pieces, if there is no solution.
-    std::optional<std::uint64_t> piece;
-    if (now > options_.tolerance && now <= options_.rounding_level) piece = piece_of_residual();
-    const bool stagnates = piece && piece == piece_before && now > 0.5 * before;
-    piece_before = piece;
-    if (now <= linear_share * before) result.linear = false;
-    if (now <= options_.tolerance || stagnates) {
-      // Across a kink the equations are others, and the branch may be far from a solution of these.
-      const bool may_cross = now > surely_within && !stagnates && !crossed && problem_.cheap_residual();
-      if (may_cross) piece = piece_of_residual();
-      v += dv_;
-      p_[free_] = v[v.size() - 1];
-      if (may_cross && piece && !is_in_piece(v, *piece, PieceTest::whole)) {
-        across_ = v;
-        crossed = true;
-        before = now;
-        continue;
-      }
-      result.converged = true;
-      return result;
-    }
-    if (!std::isfinite(now)) return failed();
-    result.linear = k > 0 && before > 0 && before < undamped && now > linear_share * before;
-    if (now < undamped || !is_damped) {
-      if (is_damped && k > 0 && before > 0 && before < undamped && now > undamped_divergence * before)
-        return failed();
-      v += dv_;
-      before = now;
-      continue;
-    }
-    if (!damp(v, now)) return failed();
-    v = trial_;
-    before = 0;
+  NewtonRun run{v, row, damping == Damping::natural, result, result.last};
+  for (int k = 0; k < iterations; ++k, ++run.result.iterations) {
+    const Newton state = newton_step(run, k);
+    if (state == Newton::converged) return run.result;
+    if (state == Newton::failed) return fall_back(run);
   }
-  result.linear = true;  // it converged in all iterations, but too slowly
-  return failed();
+  run.result.linear = true;  // it converged in all iterations, but too slowly
+  return fall_back(run);
+}
+
+Corrector::Newton Corrector::newton_step(NewtonRun& run, int k) {
+  Correction& result = run.result;
+  if (run.is_damped && result.linear && k >= options_.iterations) return Newton::failed;
+  if (!evaluate(run.v, Needs::jacobian)) {
+    result.evaluated = false;
+    return Newton::failed;
+  }
+  if (!factorize(run.v, run.row)) {
+    result.singular = true;
+    return Newton::failed;
+  }
+  solve(dv_);
+  const double now = size(dv_, run.v), before = run.before;
+  note_size(run, now, k);
+  const bool cycles = this->cycles(run);
+  if (now <= linear_share * before) result.linear = false;
+  if (now <= options_.tolerance || cycles) return take_last(run, !cycles);
+  if (!std::isfinite(now)) return Newton::failed;
+  const bool was_small = k > 0 && before > 0 && before < undamped;
+  result.linear = was_small && now > linear_share * before;
+  if (run.is_damped && now >= undamped) return take_damped(run);
+  if (run.is_damped && was_small && now > undamped_divergence * before) return Newton::failed;
+  run.v += dv_;
+  run.before = now;
+  return Newton::goes_on;
+}
+
+void Corrector::note_size(NewtonRun& run, double now, int k) {
+  Correction& result = run.result;
+  result.last = now;
+  if (result.first == 0) result.first = now;
+  if (!(run.before > 0)) return;
+  if (result.contraction == 0) result.contraction = now / run.before;
+  if (k == 0) memory_.contraction = std::max(now / run.before, 1e-4);
+}
+
+// Whether small corrections do not decrease at a kink: they cycle between two pieces, if there is no
+// solution.
+bool Corrector::cycles(NewtonRun& run) {
+  const double now = run.result.last;
+  std::optional<std::uint64_t> piece;
+  if (now > options_.tolerance && now <= options_.rounding_level) piece = piece_of_residual();
+  const bool same = piece && piece == run.piece_before && now > 0.5 * run.before;
+  run.piece_before = piece;
+  return same;
+}
+
+// Takes a correction within the tolerance: the last one, unless it crosses a kink, beyond which the equations
+// are others and the branch may be far from a solution of these.
+Corrector::Newton Corrector::take_last(NewtonRun& run, bool may_cross) {
+  may_cross = may_cross && run.result.last > surely_within && !run.crossed && problem_.cheap_residual();
+  const std::optional<std::uint64_t> piece = may_cross ? piece_of_residual() : std::nullopt;
+  run.v += dv_;
+  p_[free_] = run.v[run.v.size() - 1];
+  if (piece && !is_in_piece(run.v, *piece, PieceTest::whole)) {
+    across_ = run.v;
+    run.crossed = true;
+    run.before = run.result.last;
+    return Newton::goes_on;
+  }
+  run.result.converged = true;
+  return Newton::converged;
+}
+
+Corrector::Newton Corrector::take_damped(NewtonRun& run) {
+  if (!damp(run.v, run.result.last)) return Newton::failed;
+  run.v = trial_;
+  run.before = 0;
+  return Newton::goes_on;
+}
+
+// Beyond a kink that was crossed there was no better solution than the one that crossed it.
+Correction Corrector::fall_back(NewtonRun& run) {
+  Correction& result = run.result;
+  if (!run.crossed) return result;
+  run.v = across_;
+  p_[free_] = run.v[run.v.size() - 1];
+  result.evaluated = result.converged = true;
+  result.singular = result.linear = false;
+  return result;
 }
 
 }  // namespace arcslip::continuation

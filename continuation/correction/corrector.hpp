@@ -134,7 +134,25 @@ class Corrector {
   void solve(Vector& dv) const;           // dv = -B^-1 (F, 0)
   void back_substitute(Vector& x) const;  // x = B^-1 x; not finite where the linear solver throws
   bool chord(Vector& v, Correction& result);
+  // What Newton's method carries from one iteration to the next.
+  struct NewtonRun {
+    Vector& v;
+    const Vector& row;
+    bool is_damped;
+    Correction result;
+    double before;  // size of the correction that led to v; 0: it was damped, or none
+    std::optional<std::uint64_t> piece_before{};  // of F, where that began, if it was small
+    bool crossed = false;  // a kink, by a correction within the tolerance: across_ is the point beyond
+  };
+  enum class Newton { goes_on, converged, failed };
+
   Correction newton(Vector& v, const Vector& row, int iterations, Damping damping, Correction result);
+  Newton newton_step(NewtonRun& run, int k);
+  void note_size(NewtonRun& run, double now, int k);
+  bool cycles(NewtonRun& run);
+  Newton take_last(NewtonRun& run, bool may_cross);
+  Newton take_damped(NewtonRun& run);
+  Correction fall_back(NewtonRun& run);
   bool damp(const Vector& v, double now);
   std::optional<std::uint64_t> piece_of_residual() const;
 

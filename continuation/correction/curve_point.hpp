@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -35,17 +34,6 @@ struct PassedKink {
 /// Sets tangent, orientation and piece at the solution place.v of the last correction, with row . t > 0 for
 /// its border row. False if the tangent is not finite or the piece cannot be determined.
 bool settle(Corrector& at, CurvePoint& place);
-
-/// Whether the corrector's point v is still in the current smooth piece, or part.
-using Inside = std::function<bool(const Vector& v)>;
-
-/// The end of the smooth piece of `from` along its tangent, within [0, length]: the kink, seen from this
-/// side. The end of the piece is bisected on the predicted branch, which costs only tests of the piece, and
-/// corrected onto the branch; this is repeated from there: section 8.7 of the theory. last: the last
-/// correction. False if the piece does not end there, or a tangent on the way does not exist. is_inside:
-/// none, or a criterion in place of the piece.
-bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePoint& kink, Correction& last,
-                 const Inside& is_inside = {});
 
 /// A place as passed to monitors and observers. The factors are those of the corrector's last linearization.
 Accepted accepted(Corrector& at, const CurvePoint& place);

@@ -1,5 +1,6 @@
 #include <arcslip/continuation/tracing/event_locator.hpp>
 
+#include <arcslip/continuation/correction/kink_location.hpp>
 #include <arcslip/continuation/events/monitor_calls.hpp>
 #include <arcslip/continuation/events/root.hpp>
 

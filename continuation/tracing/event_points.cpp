@@ -1,5 +1,6 @@
 // Events other than zeros of functions: kinks, and crossings of two branches.
 
+#include <arcslip/continuation/correction/kink_location.hpp>
 #include <arcslip/continuation/events/monitor_calls.hpp>
 #include <arcslip/continuation/special_points/branch_point.hpp>
 #include <arcslip/continuation/special_points/multiple_point.hpp>
