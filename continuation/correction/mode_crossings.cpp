@@ -148,7 +148,7 @@ std::optional<ModeCrossings> ModeCounter::between(const CurvePoint& from, const 
     const auto m = modes.values[i], a = at_first(i, i);
     if (m.imag() != 0 || !(a.real() > 0)) continue;
     const double bend = 4 * std::abs(m.real() - 0.5 * (a.real() + 1));
-    if (pair_safety * bend > 1 + a.real() + 2 * std::sqrt(a.real())) result.reported = false;
+    if (pair_safety * bend > 1 + a.real() + 2 * std::sqrt(a.real())) result.is_certain = false;
   }
   return result;
 }

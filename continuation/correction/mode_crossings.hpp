@@ -27,8 +27,10 @@ inline constexpr double pair_safety = 8;
 
 struct ModeCrossings {
   int count = 0;
-  bool reported = true;  // false: a mode is curved enough to cross zero and return
-  bool at_zero = false;  // a mode is zero to rounding at the second point, and has no sign there
+  bool is_certain = true;  // false: a mode is curved enough to cross zero and return
+  bool at_zero = false;    // a mode is zero to rounding at the second point, and has no sign there
+
+  bool is_odd() const { return count % 2 == 1; }
 };
 
 class ModeCounter {

@@ -200,6 +200,47 @@ std::optional<std::vector<Vector>> half_branches(LyapunovSchmidt& reduction) {
   return found;
 }
 
+// The rows of G, one below the other.
+Vector stacked_gradient(const LyapunovSchmidt& reduction) {
+  const Matrix& G = reduction.gradient();
+  Vector g(G.size());
+  for (Eigen::Index i = 0; i < G.rows(); ++i) g.segment(i * G.cols(), G.cols()) = G.row(i).transpose();
+  return g;
+}
+
+// beta where the reduction is moved to x, with G and H at the point beyond. Nothing on failure.
+std::optional<Vector> expand(LyapunovSchmidt& reduction, const Vector& x, Matrix& H) {
+  if (!reduction.move_to(x)) return {};
+  Vector beta = reduction.settle();
+  if (!beta.allFinite() || !reduction.move_to(reduction.x()) || !reduction.form(H)) return {};
+  return beta;
+}
+
+// Newton's method for G = 0, in the plane of the reduction. Nothing if it leads farther away than `reach`.
+std::optional<Vector> zero_of_gradient(LyapunovSchmidt& reduction, const Vector& guess, double reach) {
+  Vector x = guess;
+  Matrix H;
+  for (int step = 0; step < iterations; ++step) {
+    if (!expand(reduction, x, H)) return {};
+    const LeastSquares found = least_squares(H, stacked_gradient(reduction), singular_share);
+    if (found.rank < reduction.gradient().cols()) return {};
+    const Vector y = found.X;
+    x = reduction.x() + reduction.right() * y;
+    if (!((x - guess).cwiseQuotient(reduction.scales()).norm() <= reach)) return {};
+    if (y.norm() <= converged_at * (1 + reduction.size())) break;
+  }
+  return x;
+}
+
+// Whether beta and G vanish at x, compared with H.
+bool is_multiple(LyapunovSchmidt& reduction, const Vector& x) {
+  Matrix H;
+  const auto beta = expand(reduction, x, H);
+  const double distance = least_separation * (1 + reduction.size());
+  return beta && stacked_gradient(reduction).norm() <= H.norm() * distance &&
+         beta->norm() <= H.norm() * distance * distance;
+}
+
 }  // namespace
 
 std::optional<MultiplePoint> locate_multiple_point(const Problem& problem, const Vector& p, int along,
@@ -207,32 +248,8 @@ std::optional<MultiplePoint> locate_multiple_point(const Problem& problem, const
                                                    const MakeLinearSolver& make_solver) {
   if (rank_loss < 2 || rank_loss > largest_rank_loss || rank_loss > problem.size()) return {};
   LyapunovSchmidt reduction(problem, p, along, rank_loss, make_solver);
-  Vector x = guess;
-  Matrix H;
-  const Eigen::Index m = rank_loss;
-  const auto stacked = [&] {
-    Vector g(m * (m + 1));
-    for (Eigen::Index i = 0; i < m; ++i)
-      g.segment(i * (m + 1), m + 1) = reduction.gradient().row(i).transpose();
-    return g;
-  };
-  bool done = false;
-  for (int step = 0; step < iterations && !done; ++step) {
-    if (!reduction.move_to(x)) return {};
-    if (!reduction.settle().allFinite() || !reduction.move_to(reduction.x()) || !reduction.form(H)) return {};
-    const LeastSquares found = least_squares(H, stacked(), singular_share);
-    if (found.rank < m + 1) return {};
-    const Vector y = found.X;
-    x = reduction.x() + reduction.right() * y;
-    if (!((x - guess).cwiseQuotient(reduction.scales()).norm() <= reach)) return {};
-    done = y.norm() <= converged_at * (1 + reduction.size());
-  }
-  if (!reduction.move_to(x)) return {};
-  const Vector beta = reduction.settle();
-  if (!beta.allFinite() || !reduction.move_to(reduction.x()) || !reduction.form(H)) return {};
-  const double distance = least_separation * (1 + reduction.size());
-  if (!(stacked().norm() <= H.norm() * distance && beta.norm() <= H.norm() * distance * distance)) return {};
-
+  const auto x = zero_of_gradient(reduction, guess, reach);
+  if (!x || !is_multiple(reduction, *x)) return {};
   const auto directions = half_branches(reduction);
   if (!directions) return {};
   MultiplePoint point;

@@ -123,6 +123,22 @@ class Reader {
 template <class T, class U>
 constexpr bool is = std::is_same_v<std::remove_const_t<T>, U>;
 
+void fields_of_state(auto& visit, auto& x) {
+  visit("branch", x.branch), visit("free", x.free), visit("direction", x.direction), visit("p", x.p);
+  visit("start", x.start), visit("here", x.here), visit("before", x.before);
+  visit("has_before", x.has_before), visit("begun", x.begun), visit("ended", x.ended);
+  visit("step", x.step), visit("last_step", x.last_step), visit("rejections", x.rejections);
+  visit("trouble_end", x.trouble_end), visit("unresolved_end", x.unresolved_end);
+  visit("unresolved_step", x.unresolved_step), visit("turn", x.turn), visit("courses", x.courses);
+  if (visit.holds("factors")) {  // absent in states of earlier versions, as what follows
+    visit("longest", x.longest), visit("slow", x.slow), visit("jacobian_doubt", x.jacobian_doubt);
+    visit("jacobian_error", x.jacobian_error), visit("factors_fit", x.factors_fit);
+    visit("factors", x.factors);
+  }
+  if (visit.holds("curve_error")) visit("curve_error", x.curve_error);
+  if (visit.holds("transverse")) visit("transverse", x.transverse);
+}
+
 template <class Visit>
 void fields(Visit&& visit, auto& x) {
   using T = std::remove_reference_t<decltype(x)>;
@@ -172,19 +188,7 @@ void fields(Visit&& visit, auto& x) {
     visit("b", x.b), visit("basis", x.basis);
   } else {
     static_assert(is<T, State>);
-    visit("branch", x.branch), visit("free", x.free), visit("direction", x.direction), visit("p", x.p);
-    visit("start", x.start), visit("here", x.here), visit("before", x.before);
-    visit("has_before", x.has_before), visit("begun", x.begun), visit("ended", x.ended);
-    visit("step", x.step), visit("last_step", x.last_step), visit("rejections", x.rejections);
-    visit("trouble_end", x.trouble_end), visit("unresolved_end", x.unresolved_end);
-    visit("unresolved_step", x.unresolved_step), visit("turn", x.turn), visit("courses", x.courses);
-    if (visit.holds("factors")) {  // absent there, too
-      visit("longest", x.longest), visit("slow", x.slow), visit("jacobian_doubt", x.jacobian_doubt);
-      visit("jacobian_error", x.jacobian_error), visit("factors_fit", x.factors_fit);
-      visit("factors", x.factors);
-    }
-    if (visit.holds("curve_error")) visit("curve_error", x.curve_error);
-    if (visit.holds("transverse")) visit("transverse", x.transverse);
+    fields_of_state(visit, x);
   }
 }
 

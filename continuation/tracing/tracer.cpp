@@ -4,7 +4,6 @@
 #include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/continuation/special_points/lyapunov_schmidt.hpp>
-#include <arcslip/continuation/special_points/multiple_point.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +19,6 @@ constexpr double parameter_overrun = 1.5;      // of the largest |dp| of a step
 constexpr double parameter_rounding = 1e-9;    // relative changes of p below this give no direction
 // A turn of which this share remains in a step shortened by this factor is a kink.
 constexpr double kink_turn = 0.7, kink_step = 0.25;
-constexpr double branch_point_step = 1e-7;  // relative to 1 + |u|: shorter steps cannot separate two branches
-constexpr double pair_share = 1e-3;  // of the first step in which a mode may cross zero and return: minimum
 constexpr double endless_tail = 1e-12;  // of the parameter's scale: end this close to an unreached bound
 constexpr double tail_before = 1e-9;    // with its last point this close
 constexpr double been_away = 3;  // roundings of the distance from the start: closer, it has not returned
@@ -33,22 +30,6 @@ bool went_back(const CurvePoint& from, const CurvePoint& to) {
   const Eigen::Index n = to.v.size() - 1;
   const double a = from.tangent[n], b = to.tangent[n], dp = to.v[n] - from.v[n];
   return a * b > 0 && a * dp < 0 && std::abs(dp) > parameter_rounding * std::abs(from.v[n]);
-}
-
-// If pieces of F meet there, or the branch point is not simple.
-LocatedEvent unlocated_branch_point(const std::vector<Monitor>& monitors, const CurvePoint& from,
-                                    const CurvePoint& to) {
-  LocatedEvent found;
-  for (const Monitor& monitor : monitors)
-    if (monitor.kind == MonitorKind::branch_point) found.event.monitor = monitor.name;
-  found.event.nonsmooth = from.piece != to.piece;
-  found.event.located = found.event.nonsmooth;
-  found.event.point = point(from, {});
-  BranchPoint half_branches;
-  half_branches.tangents = {from.tangent, to.tangent};
-  found.event.data = std::move(half_branches);
-  found.place = from;
-  return found;
 }
 
 }  // namespace
@@ -79,11 +60,29 @@ bool Tracer::Impl::step() try {
   return end(StopReason::monitor_failed, failure.parameter, 0, failure.what());
 }
 
-// Predicts, corrects, and asks what a step has to keep to be accepted: one branch, the length of dp, the
+// Asks of a corrected prediction what a step has to keep to be accepted: one branch, the length of dp, the
 // curve, the quantities.
 Tracer::Impl::Outcome Tracer::Impl::attempt() {
-  CurvePoint& end = trial_.end;
   trial_.begin();
+  if (const auto refused = correct()) return *refused;
+  if (const auto refused = keep_to_branch()) return *refused;
+  const double moved = std::abs(trial_.end.v[n_] - s_.here.v[n_]), most = control_.largest_parameter_step();
+  if (moved > parameter_overrun * most)  // the tangent may turn towards the parameter, or at a kink
+    return refuse(Rejected::parameter_step, moved, most, Outcome::unresolved);
+  locate_corners();
+  if (!settle_signs()) return refuse(Rejected::singular, 0, 0);
+  interpolation_.measure_curve(trial_);
+  divide();
+  if (trial_.curve_error > 1 || interpolation_.misses_kinks(trial_))
+    return refuse(Rejected::curve, trial_.curve_error, 1, Outcome::unresolved);
+  if (!interpolation_.resolves_quantities(trial_))
+    return refuse(Rejected::quantity, 0, 0, Outcome::unresolved);
+  return take(trial_.kink ? s_.turn.step * kink_step : control_.after(trial_));
+}
+
+// Corrects the prediction, and measures the step to it.
+std::optional<Tracer::Impl::Outcome> Tracer::Impl::correct() {
+  CurvePoint& end = trial_.end;
   control_.predict(end.v);
   main_.border_row(s_.here.tangent, row_);
   trial_.correction = main_.correct(end.v, row_, s_.factors_fit);
@@ -96,41 +95,34 @@ Tracer::Impl::Outcome Tracer::Impl::attempt() {
                                       : Rejected::not_evaluated,
                   correction.last, options_.newton.tolerance);
   if (correction.linear) jacobian_.suspect(end.v);
-
   v_ = end.v - s_.here.v;
-  const double chord = std::sqrt(main_.dot(v_, v_));
-  if (!(chord > 0) || !settle(main_, end)) return refuse(Rejected::singular, chord, 0);
-  if (went_back(s_.here, end)) return refuse(Rejected::another_branch, 0, 0);
-  trial_.length = chord;
+  trial_.length = std::sqrt(main_.dot(v_, v_));
+  if (!(trial_.length > 0) || !settle(main_, end)) return refuse(Rejected::singular, trial_.length, 0);
   trial_.turn = angle_between(
-      std::min(main_.dot(end.tangent, s_.here.tangent), main_.dot(v_, s_.here.tangent) / chord));
-  trial_.kink = trial_.turn > options_.step.largest_angle && is_kink();
-  if (trial_.turn > options_.step.largest_angle) {
-    if (!trial_.kink || end.orientation != s_.here.orientation)
-      return refuse(Rejected::turn, trial_.turn, options_.step.largest_angle);
-  } else if (const auto refused = look_for_crossing()) {
-    return *refused;
-  }
-  // The tangent may turn towards the parameter within the step, or at a kink.
-  const double moved = std::abs(end.v[n_] - s_.here.v[n_]), most = control_.largest_parameter_step();
-  if (moved > parameter_overrun * most)
-    return refuse(Rejected::parameter_step, moved, most, Outcome::unresolved);
-  end.arclength = s_.here.arclength + chord;
+      std::min(main_.dot(end.tangent, s_.here.tangent), main_.dot(v_, s_.here.tangent) / trial_.length));
+  return {};
+}
+
+// Whether the step stays on the branch, in its direction: it turns little, or at a kink, and passes branch
+// points that are located.
+std::optional<Tracer::Impl::Outcome> Tracer::Impl::keep_to_branch() {
+  if (went_back(s_.here, trial_.end)) return refuse(Rejected::another_branch, 0, 0);
+  if (!(trial_.turn > options_.step.largest_angle)) return look_for_crossing();
+  trial_.kink = is_kink();
+  if (trial_.kink && trial_.end.orientation == s_.here.orientation) return {};
+  return refuse(Rejected::turn, trial_.turn, options_.step.largest_angle);
+}
+
+// Evaluates the monitors, and finds the kinks on the way; the step is longer by way of them.
+void Tracer::Impl::locate_corners() {
+  CurvePoint& end = trial_.end;
+  end.arclength = s_.here.arclength + trial_.length;
   evaluate(monitors_, main_, end);
   if (!interpolation_.passes_kinks(trial_)) trial_.corners = events_.corners(s_.here, end);
-  if (!trial_.corners.empty()) {
-    const CurvePoint& last = trial_.corners.back().beyond;
-    trial_.length = last.arclength - s_.here.arclength + distance(main_, last.v, end.v);
-    end.arclength = s_.here.arclength + trial_.length;
-  }
-  if (!settle_signs()) return refuse(Rejected::singular, 0, 0);
-  interpolation_.measure_curve(trial_);
-  divide();
-  if (trial_.curve_error > 1 || interpolation_.misses_kinks(trial_))
-    return refuse(Rejected::curve, trial_.curve_error, 1, Outcome::unresolved);
-  if (!interpolation_.resolves_quantities(trial_))
-    return refuse(Rejected::quantity, 0, 0, Outcome::unresolved);
-  return take(trial_.kink ? s_.turn.step * kink_step : control_.after(trial_));
+  if (trial_.corners.empty()) return;
+  const CurvePoint& last = trial_.corners.back().beyond;
+  trial_.length = last.arclength - s_.here.arclength + distance(main_, last.v, end.v);
+  end.arclength = s_.here.arclength + trial_.length;
 }
 
 Tracer::Impl::Outcome Tracer::Impl::refuse(Rejected why, double value, double limit, Outcome as) {
@@ -206,63 +198,6 @@ bool Tracer::Impl::is_kink() {
   if (trial_.turn >= kink_turn * s_.turn.angle) return true;
   s_.turn = now;  // it decreased, but may persist from here on
   return false;
-}
-
-// Locates the branch point in the step, if any, and rejects the step otherwise: a change of orientation is a
-// jump to a nearby branch, unless branches cross here or it persists with the smallest step; and several
-// modes that cross zero are several branch points, unless they do so at the same point.
-std::optional<Tracer::Impl::Outcome> Tracer::Impl::look_for_crossing() {
-  CurvePoint& to = trial_.end;
-  const double inseparable = branch_point_step * (1 + main_.norm_u(s_.here.v));
-  const bool apart = s_.step > inseparable;
-  const auto crossed = counts_modes_ ? count_modes() : std::nullopt;
-  if (crossed && crossed->at_zero && apart) return refuse(Rejected::branch_points, 1, 0, Outcome::unresolved);
-  const bool turned = changes_determinant(crossed);
-  int modes = turned ? 1 : 0;
-  if (crossed && (crossed->count % 2 == 1) == turned) modes = crossed->count;
-  if (crossed && modes == 0 && !crossed->reported && !interpolation_.stretch_is_short(pair_share)) {
-    interpolation_.begin_stretch(trial_.length);
-    return refuse(Rejected::branch_points, 2, 1, Outcome::unresolved);
-  }
-  if (modes == 0) return {};
-  to.arclength = s_.here.arclength + trial_.length;
-  auto& crossing = trial_.crossing;
-  if (modes == 1) crossing = events_.branch_point(s_.here, to);
-  for (int loss = std::max(modes, 2); counts_modes_ && !crossing && loss <= largest_rank_loss; ++loss)
-    if (loss == modes || modes == 1) crossing = events_.multiple_point(s_.here, to, loss);
-  if (crossing) return {};
-  if (apart && turned) return refuse(Rejected::another_branch, 0, 0);
-  if (apart) return refuse(Rejected::branch_points, modes, 1, Outcome::unresolved);
-  const std::string doubt = doubt_of_isolation(*problem_, s_.here.v, s_.p, s_.free, options_.linear_solver);
-  if (!doubt.empty() && to.piece == s_.here.piece) {
-    end(StopReason::step_too_small, s_.step, inseparable,
-        "the orientation of the branch changes even with the smallest step" + doubt);
-    return Outcome::ended;
-  }
-  crossing = unlocated_branch_point(monitors_, s_.here, to);
-  return {};
-}
-
-// The modes that cross zero in the step, on one smooth piece.
-std::optional<ModeCrossings> Tracer::Impl::count_modes() {
-  if (trial_.end.piece != s_.here.piece) return {};
-  if (!modes_) modes_ = std::make_unique<ModeCounter>(*problem_, s_.p, s_.free, s_.branch.counts);
-  return modes_->between(s_.here, trial_.end, trial_.length, row_, main_.factors());
-}
-
-// Whether the sign of the determinant changes in the step. A linear solver that does not know it leaves that
-// to the modes that cross zero, where these are counted, and to the determinant of a few more borders; where
-// pieces meet, it is not known.
-bool Tracer::Impl::changes_determinant(const std::optional<ModeCrossings>& crossed) {
-  const CurvePoint& to = trial_.end;
-  if (to.orientation != 0 && s_.here.orientation != 0) return to.orientation != s_.here.orientation;
-  if (to.piece != s_.here.piece) return false;
-  const TransverseSpace::Sign sign = transverse_.compare(trial_);
-  const auto is_odd = [](const ModeCrossings& modes) { return modes.count % 2 == 1; };
-  if (crossed && (crossed->count > 0 || modes_->counts_all())) return is_odd(*crossed);
-  if (sign != TransverseSpace::Sign::open) return sign == TransverseSpace::Sign::changed;
-  const auto counted = crossed ? crossed : count_modes();
-  return counted && is_odd(*counted);
 }
 
 // The monitors at the solution of the last correction.

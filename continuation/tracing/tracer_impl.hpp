@@ -51,10 +51,15 @@ class Tracer::Impl {
   bool may_try();
   std::string why_too_small();
   Outcome attempt();
+  std::optional<Outcome> correct();
+  std::optional<Outcome> keep_to_branch();
+  void locate_corners();
   Outcome refuse(Rejected why, double value, double limit, Outcome as = Outcome::rejected);
   void count_rejection();
   bool passes_corner_instead();
   std::optional<Outcome> look_for_crossing();
+  bool locate_crossing(int modes);
+  std::optional<Outcome> pass_unlocated_crossing(double smallest);
   std::optional<ModeCrossings> count_modes();
   bool changes_determinant(const std::optional<ModeCrossings>& crossed);
   bool is_kink();
