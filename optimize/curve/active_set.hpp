@@ -1,7 +1,7 @@
 #pragma once
 // Changes of the active set of an optimum (optimality.hpp). Not installed.
 
-#include <arcslip/optimize/search/optimality.hpp>
+#include <arcslip/optimize/curve/optimality.hpp>
 
 #include <optional>
 #include <vector>

@@ -4,10 +4,10 @@
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
 #include <arcslip/optimize/curve/active_set.hpp>
+#include <arcslip/optimize/curve/active_set_point.hpp>
 #include <arcslip/optimize/curve/optimum_curve.hpp>
-#include <arcslip/optimize/curve/standing.hpp>
-#include <arcslip/optimize/search/design_space.hpp>
-#include <arcslip/optimize/search/watch.hpp>
+#include <arcslip/optimize/evaluation/design_space.hpp>
+#include <arcslip/optimize/evaluation/watch.hpp>
 
 #include <cstddef>
 #include <map>
@@ -26,7 +26,7 @@ inline constexpr double u_turn = -0.9;  // cosine of the tangents before and aft
 struct Seen {
   OptimumPoint point;
   double slope;     // d ln A / dsigma of the optimum
-  int orientation;  // of the tangent there (Standing)
+  int orientation;  // of the tangent there (ActiveSetPoint)
 };
 
 class CurveOfOptima {
@@ -100,12 +100,12 @@ class CurveOfOptima {
   void lost(const continuation::BranchStop& stop);
   // Continues from slightly beyond the end of a piece, with the peaks there. way: -1 if s turns, to a piece
   // with peaks of other kinds. False: no such optimum; here_ is then unchanged.
-  bool goes_on(const Standing& last, double by, int way);
+  bool goes_on(const ActiveSetPoint& last, double by, int way);
   // Identifies the active peaks in the response at here_.z, and the parameters without influence.
-  bool find_beyond(const Standing& last, double by);
+  bool find_beyond(const ActiveSetPoint& last, double by);
   // The tangent of the continued curve, by its orientation. False: none, or it leads back onto the
   // same piece.
-  bool direct(const Standing& last, const OptimalityEvaluator& at);
+  bool direct(const ActiveSetPoint& last, const OptimalityEvaluator& at);
   static bool same_kinds(const std::vector<KnownPeak>& before, const OptimalityEvaluator& at);
   void changed(const std::vector<KnownPeak>& before, const OptimalityEvaluator& at);
   void finish();
@@ -120,14 +120,14 @@ class CurveOfOptima {
   PeakAmplitude peaks_;
   std::vector<ScaledParameter> scaled_;
   OptimumCurve curve_;
-  Standing here_;
+  ActiveSetPoint here_;
   double reference_ = 1;
   double step_ = 0;  // the last one
   std::string flat_;
   bool ended_ = false;
 
   // Where the last response was.
-  std::optional<Standing> safe_;
+  std::optional<ActiveSetPoint> safe_;
   std::optional<OptimumPoint> checked_;
   std::size_t safe_points_ = 0, safe_events_ = 0;
   double interval_ = between_responses;  // of y and sigma

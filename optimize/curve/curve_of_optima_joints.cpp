@@ -2,7 +2,7 @@
 
 #include <arcslip/analyses/branches/stop_reason.hpp>
 #include <arcslip/optimize/curve/curve_of_optima.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/optimize/evaluation/reasons.hpp>
 
 #include <algorithm>
 #include <array>
@@ -79,7 +79,7 @@ void CurveOfOptima::orient(const Inequality& watched) {
   OptimalityEvaluator at(data());
   const Eigen::Index n = here_.z.size();
   const auto go = [&](double by) {
-    Standing there = here_;
+    ActiveSetPoint there = here_;
     there.z += by * here_.tangent.head(n);
     there.sigma += by * here_.tangent[n];
     return there.move(at);
@@ -180,7 +180,7 @@ void CurveOfOptima::lost(const continuation::BranchStop& stop) {
     return static_cast<void>(end(Status::failed, observables::reason_of(stop.reason), where + stop.message));
   verify();
   if (ended_ || rewound_) return;
-  const Standing last = here_;
+  const ActiveSetPoint last = here_;
   flat_.clear();
   for (const double by : distances_beyond)
     for (const int way : {1, -1})
@@ -195,7 +195,7 @@ void CurveOfOptima::lost(const continuation::BranchStop& stop) {
           "the active peaks cannot be continued, and no nearby optimum continues the curve: " + stop.message);
 }
 
-bool CurveOfOptima::goes_on(const Standing& last, double by, int way) {
+bool CurveOfOptima::goes_on(const ActiveSetPoint& last, double by, int way) {
   const Eigen::Index n = last.z.size();
   here_.z = last.z + by * last.tangent.head(n);
   here_.sigma = last.sigma + way * by * last.tangent[n];
@@ -214,7 +214,7 @@ bool CurveOfOptima::goes_on(const Standing& last, double by, int way) {
   return false;
 }
 
-bool CurveOfOptima::find_beyond(const Standing& last, double by) {
+bool CurveOfOptima::find_beyond(const ActiveSetPoint& last, double by) {
   std::vector<double> design;
   Eigen::Index next = 0;
   for (std::size_t k = 0; k < size(); ++k)
@@ -231,7 +231,7 @@ bool CurveOfOptima::find_beyond(const Standing& last, double by) {
   return true;
 }
 
-bool CurveOfOptima::direct(const Standing& last, const OptimalityEvaluator& at) {
+bool CurveOfOptima::direct(const ActiveSetPoint& last, const OptimalityEvaluator& at) {
   if (here_.active.held != last.active.held) {
     here_.tangent = {};
     return true;

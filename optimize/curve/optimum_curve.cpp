@@ -1,7 +1,7 @@
 #include <arcslip/analyses/branches/stop_reason.hpp>
 #include <arcslip/optimize/curve/curve_of_optima.hpp>
+#include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/optimize/peaks/peak_unknowns.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -251,7 +251,7 @@ CurveOfOptima::Piece CurveOfOptima::trace_piece() {
   piece.may_change = inequalities(here_.active);
   std::exception_ptr thrown;
   const auto observe = [&](const Accepted& now, const Event*) {
-    Standing there = here_;
+    ActiveSetPoint there = here_;
     there.tangent = now.tangent;
     there.orient(evaluator(now));
     Seen& seen = piece.seen[now.arclength];

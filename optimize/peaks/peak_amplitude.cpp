@@ -3,7 +3,7 @@
 #include <arcslip/analyses/branches/unbounded_resonance.hpp>
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/optimize/nlopt/minimize.hpp>
-#include <arcslip/optimize/peaks/follower.hpp>
+#include <arcslip/optimize/peaks/peak_follower.hpp>
 #include <arcslip/optimize/peaks/peak_unknowns.hpp>
 #include <arcslip/results/event_kinds.hpp>
 

@@ -99,7 +99,7 @@ struct PeakWork {
 };
 
 using continuation::Vector;
-class Follower;
+class PeakFollower;
 
 class PeakAmplitude {
  public:
@@ -169,7 +169,7 @@ class PeakAmplitude {
   void differences(Peak& peak, observables::Steps steps);
   void add_extremes();
   void watch();
-  Follower& follower(std::size_t peak);
+  PeakFollower& follower(std::size_t peak);
   bool follow(std::size_t peak, std::span<const double> to, Peak& followed);
   /// Takes the tracked peaks of a design as its state.
   void move_to(std::span<const double> design, std::vector<Peak>&& tracked);
@@ -209,7 +209,7 @@ class PeakAmplitude {
   std::shared_ptr<const hbm::HbmProblem> problem_;
   std::unique_ptr<observables::Sensitivity> sensitivity_;
   std::unique_ptr<observables::CurveSection> section_;
-  std::vector<std::unique_ptr<Follower>> followers_;  // of the peaks, created when one is tracked
+  std::vector<std::unique_ptr<PeakFollower>> followers_;  // of the peaks, created when one is tracked
 };
 
 }  // namespace arcslip::optimize

@@ -1,7 +1,7 @@
 // Tracking of the peaks from one design to another.
 
-#include <arcslip/optimize/peaks/follower.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
+#include <arcslip/optimize/peaks/peak_follower.hpp>
 #include <arcslip/optimize/peaks/peak_unknowns.hpp>
 
 #include <algorithm>
@@ -90,7 +90,7 @@ bool PeakAmplitude::follow_to(std::span<const double> design, std::span<const st
   return true;
 }
 
-Follower& PeakAmplitude::follower(std::size_t peak) {
+PeakFollower& PeakAmplitude::follower(std::size_t peak) {
   auto& made = followers_[peak];
   if (made) return *made;
   const Peak& of = state_.peaks[peak];
@@ -103,7 +103,7 @@ Follower& PeakAmplitude::follower(std::size_t peak) {
     equations = hbm::corner_points(problem_, *of.corner);
   else
     p[model::frequency] = of.omega();
-  made = std::make_unique<Follower>(equations, over_, p);
+  made = std::make_unique<PeakFollower>(equations, over_, p);
   return *made;
 }
 
@@ -113,7 +113,7 @@ bool PeakAmplitude::holds(std::size_t peak, const Vector& x) {
   if (is_end(of.kind)) return true;
   const double omega = x[problem_->size()];
   if (!(omega >= window_.lower && omega <= window_.upper)) return false;
-  Follower& follower = *followers_[peak];
+  PeakFollower& follower = *followers_[peak];
   if (of.kind == PeakKind::resonance) {
     const auto second = continuation::cusp_monitor().value;
     continuation::Scratch none;
@@ -124,7 +124,7 @@ bool PeakAmplitude::holds(std::size_t peak, const Vector& x) {
 }
 
 bool PeakAmplitude::follow(std::size_t peak, std::span<const double> to, Peak& followed) {
-  Follower& by = follower(peak);
+  PeakFollower& by = follower(peak);
   const std::vector<double>& from = state_.design;
   Vector here = unknowns(followed);
   const Eigen::Index n = problem_->size(), size = here.size();
@@ -173,7 +173,7 @@ observables::ResponsePoint PeakAmplitude::observe(const Vector& x, PeakKind kind
 continuation::Matrix PeakAmplitude::tangents(std::size_t peak) {
   const Peak& of = state_.peaks[peak];
   if (of.kind == PeakKind::kink) return {};
-  Follower& by = follower(peak);
+  PeakFollower& by = follower(peak);
   const Vector here = unknowns(of);
   if (!by.is_at(here, state_.design) && !by.linearize(here, state_.design)) return {};
   continuation::Matrix all = continuation::Matrix::Zero(of.x.size(), static_cast<Eigen::Index>(over_.size()));

@@ -1,5 +1,7 @@
 #include <arcslip/optimize/search/convergence.hpp>
 
+#include <arcslip/optimize/certificate/certificate.hpp>
+
 #include <cmath>
 #include <utility>
 

@@ -2,9 +2,9 @@
 // When a run of an algorithm within a search is ended: by tests of a minimum that NLopt does not have, or for
 // lack of progress. Not installed.
 
+#include <arcslip/optimize/certificate/multipliers.hpp>
+#include <arcslip/optimize/evaluation/design_evaluations.hpp>
 #include <arcslip/optimize/nlopt/minimize.hpp>
-#include <arcslip/optimize/search/design_evaluations.hpp>
-#include <arcslip/optimize/search/multipliers.hpp>
 
 #include <cstddef>
 #include <vector>

@@ -1,9 +1,9 @@
 #include <arcslip/analyses/curves/curves.hpp>
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/observables/quantities.hpp>
+#include <arcslip/optimize/certificate/multipliers.hpp>
+#include <arcslip/optimize/evaluation/design_space.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
-#include <arcslip/optimize/search/design_space.hpp>
-#include <arcslip/optimize/search/multipliers.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 #include <arcslip/results/event_kinds.hpp>
 
@@ -85,8 +85,7 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
   result.curves = curves_of_peaks(scene, problem, ask);
   std::string higher;
   try {
-    higher = least_minimum(
-        scene, problem, space, [&] { return ask({}); }, result);
+    higher = least_minimum(scene, problem, space, [&] { return ask({}); }, result);
   } catch (const Interrupted&) {
   }
   if (stopped) {

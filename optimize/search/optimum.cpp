@@ -2,9 +2,9 @@
 
 #include <arcslip/analyses/branches/branch_description.hpp>
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/optimize/nlopt/interrupted.hpp>
 #include <arcslip/optimize/search/convergence.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
 #include <arcslip/optimize/search/search.hpp>
 #include <arcslip/optimize/search/start.hpp>
 #include <arcslip/optimize/search/window_check.hpp>
@@ -41,7 +41,7 @@ Search::Search(const scene::Scene& scene, const OptimumProblem& problem, const O
       asked_(algorithm(options.algorithm.empty() ? std::string(default_algorithm) : options.algorithm)),
       algorithm_(asked_),
       watch_(options.seconds, options.go_on),
-      designs_(scene, problem, options, watch_, asked_.global) {
+      designs_(scene, problem, watch_, asked_.global, options.threads, options.progress) {
   result_.algorithm = asked_.name;
 }
 

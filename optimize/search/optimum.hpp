@@ -23,10 +23,11 @@
 // Limits apply at the q that are cases.
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/optimize/certificate/certificate.hpp>
+#include <arcslip/optimize/evaluation/evaluation.hpp>
+#include <arcslip/optimize/evaluation/optimum_problem.hpp>
 #include <arcslip/optimize/nlopt/minimize.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
-#include <arcslip/optimize/search/certificate.hpp>
-#include <arcslip/optimize/search/design.hpp>
 #include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -39,30 +40,6 @@
 #include <vector>
 
 namespace arcslip::optimize {
-
-struct OptimumProblem {
-  std::vector<DesignVariable> over;
-  double frequency_from = 0, frequency_to = 0;  // window, in the scene's unit
-  std::vector<ObservableLimit> limits{};
-  std::vector<LinearLimit> linear_limits{};
-  std::vector<LoadCase> cases{};  // none: one case, the scene itself
-  Criterion criterion = Criterion::worst;
-  std::vector<DesignVariable> scatter{};  // uncertain parameters; the worst case within these bounds counts
-  friend bool operator==(const OptimumProblem&, const OptimumProblem&) = default;
-};
-
-/// Whether there are several load cases, by cases or by scatter.
-inline bool has_cases(const OptimumProblem& problem) {
-  return !problem.cases.empty() || !problem.scatter.empty();
-}
-
-struct OptimumProgress {
-  int evaluations = 0;
-  std::span<const double> design;  // of the last one
-  double omega = 0;                // of the highest peak of the highest case, rad/s; 0 if there is none
-  double amplitude = 0, best = 0;  // m, criterion at the last design, and its lowest feasible value so far
-  const char* phase = "";          // "the search", "the certificate"
-};
 
 inline constexpr int default_starts = 9;
 
@@ -90,24 +67,6 @@ struct OptimumOptions {
   /// Called in every phase at each step of each response; false stops with reason user, as soon as the
   /// current evaluation has ended, or within half a second. The time limit acts likewise.
   std::function<bool()> go_on{};
-};
-
-/// An evaluated design.
-struct Evaluation {
-  std::vector<double> design;
-  double amplitude = 0;  // m, criterion over the cases at that time; infinity if one is unbounded
-};
-
-/// A case at the optimum; with scatter, a case with values of the uncertain parameters.
-struct LoadCaseResult {
-  std::size_t of = 0;                                   // index in OptimumProblem::cases; 0 without cases
-  std::vector<std::pair<std::string, double>> set;      // parameters set by that case
-  std::vector<std::pair<std::string, double>> scatter;  // values of the uncertain parameters
-  double weight = 1;
-  double amplitude = 0;              // A_c, m, without the weight
-  observables::ResponsePoint point;  // at its highest peak
-  bool active = false;    // worst: w_c A_c is the highest, within 1e-6, relative; mean: every case is
-  double multiplier = 0;  // Lagrange multiplier at the optimum; all add up to 1
 };
 
 /// Where the local searches of one optimum led. A search that comes near a minimum found before it is ended,

@@ -2,9 +2,10 @@
 // The search of optimum(): rounds of an algorithm, each followed by new responses at its best design, until
 // the first-order conditions of a minimum hold there. Not installed.
 
+#include <arcslip/optimize/certificate/multipliers.hpp>
+#include <arcslip/optimize/evaluation/design_evaluations.hpp>
 #include <arcslip/optimize/nlopt/minimize.hpp>
-#include <arcslip/optimize/search/design_evaluations.hpp>
-#include <arcslip/optimize/search/multipliers.hpp>
+#include <arcslip/optimize/search/optimum.hpp>
 
 #include <limits>
 #include <optional>

@@ -1,8 +1,9 @@
 // Whether a search has reached a minimum, and how it continues otherwise.
 
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/optimize/certificate/certify.hpp>
+#include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/optimize/search/convergence.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
 #include <arcslip/optimize/search/search.hpp>
 
 #include <algorithm>

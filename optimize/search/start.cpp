@@ -1,7 +1,7 @@
 #include <arcslip/optimize/search/start.hpp>
 
-#include <arcslip/optimize/search/multipliers.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/optimize/certificate/multipliers.hpp>
+#include <arcslip/optimize/evaluation/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>

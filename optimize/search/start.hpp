@@ -1,8 +1,8 @@
 #pragma once
 // The start of a search. Not installed.
 
-#include <arcslip/optimize/search/design_evaluations.hpp>
-#include <arcslip/optimize/search/load_cases.hpp>
+#include <arcslip/optimize/evaluation/design_evaluations.hpp>
+#include <arcslip/optimize/evaluation/load_cases.hpp>
 #include <arcslip/results/reason.hpp>
 
 #include <optional>

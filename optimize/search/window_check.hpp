@@ -2,7 +2,7 @@
 // Whether the highest value of an optimum is a resonance peak, or lies at an end of the window, where a wider
 // window may contain a higher one. Not installed.
 
-#include <arcslip/optimize/search/design_evaluations.hpp>
+#include <arcslip/optimize/evaluation/design_evaluations.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <optional>

@@ -2,9 +2,9 @@
 
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/control/ordered_parallel_for.hpp>
-#include <arcslip/optimize/search/design_space.hpp>
-#include <arcslip/optimize/search/scaled_parameter.hpp>
-#include <arcslip/optimize/search/watch.hpp>
+#include <arcslip/optimize/evaluation/design_space.hpp>
+#include <arcslip/optimize/evaluation/scaled_parameter.hpp>
+#include <arcslip/optimize/evaluation/watch.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -52,7 +52,9 @@ set(structures ${continuation} control results scene scene/keys scene/files scen
 
 set(optimize/nlopt ${structures} optimize/nlopt)
 set(optimize/peaks ${structures} optimize/nlopt optimize/peaks)
-set(optimize/search ${optimize/peaks} optimize/search)
+set(optimize/evaluation ${optimize/peaks} optimize/evaluation)
+set(optimize/certificate ${optimize/evaluation} optimize/certificate)
+set(optimize/search ${optimize/certificate} optimize/search)
 set(optimize/curve ${optimize/search} optimize/curve)
 set(optimize/study ${optimize/curve} optimize/study)
 set(optimize ${optimize/study} optimize)

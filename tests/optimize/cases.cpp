@@ -8,7 +8,7 @@
 #include "optimize/paper_optimum.hpp"
 
 #include <arcslip/laws/memoryless/cubic_spring.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "optimize/paper_optimum.hpp"
 #include "optimize/row.hpp"
 
-#include <arcslip/optimize/search/design_estimate.hpp>
+#include <arcslip/optimize/certificate/design_estimate.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 
 #include <cmath>

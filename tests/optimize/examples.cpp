@@ -7,7 +7,7 @@
 #include "optimize/optima.hpp"
 
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 
 #include <algorithm>

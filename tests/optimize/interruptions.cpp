@@ -7,7 +7,7 @@
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/analyses/curves/curves.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 
 #include <algorithm>

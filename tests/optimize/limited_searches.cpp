@@ -5,7 +5,7 @@
 #include "optimize/limited_searches.hpp"
 #include "optimize/random_limits.hpp"
 
-#include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/optimize/evaluation/reasons.hpp>
 
 #include <chrono>
 #include <iostream>

@@ -5,8 +5,8 @@
 #include "lib/hbm/scenes.hpp"
 #include "optimize/random_limits.hpp"
 
+#include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>

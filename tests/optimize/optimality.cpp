@@ -4,7 +4,7 @@
 
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/optimize/search/optimality.hpp>
+#include <arcslip/optimize/curve/optimality.hpp>
 
 #include <cmath>
 

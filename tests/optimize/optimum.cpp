@@ -8,8 +8,8 @@
 #include "optimize/paper_optimum.hpp"
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>

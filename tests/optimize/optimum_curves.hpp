@@ -6,7 +6,7 @@
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/optimize/curve/optimum_curve.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/optimize/evaluation/reasons.hpp>
 
 #include <string>
 #include <vector>

@@ -5,7 +5,7 @@
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
-#include <arcslip/optimize/search/design_evaluations.hpp>
+#include <arcslip/optimize/evaluation/design_evaluations.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 
 #include <algorithm>
@@ -170,8 +170,7 @@ inline Lowest grid(const Search& search, std::uint64_t seed, int designs) {
   Random random(seed + 1000000);
   Lowest lowest;
   optimize::Watch watch(0, {});
-  const optimize::OptimumOptions options;
-  optimize::DesignEvaluations evaluations(search.scene, search.problem, options, watch, false);
+  optimize::DesignEvaluations evaluations(search.scene, search.problem, watch, false);
   for (int i = 0; i < designs; ++i) {
     std::vector<double> design;
     for (const auto& variable : search.problem.over) {

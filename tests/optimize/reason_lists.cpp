@@ -4,7 +4,7 @@
 #include "environment.hpp"
 
 #include <arcslip/analyses/branches/stop_reason.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/results/reasons.hpp>
 #include <arcslip/results/response.hpp>
 

@@ -7,8 +7,8 @@
 #include "optimize/paper_optimum.hpp"
 #include "optimize/row.hpp"
 
+#include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>

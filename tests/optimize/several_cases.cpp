@@ -4,8 +4,8 @@
 
 #include "optimize/row.hpp"
 
-#include <arcslip/optimize/search/load_cases.hpp>
-#include <arcslip/optimize/search/multipliers.hpp>
+#include <arcslip/optimize/certificate/multipliers.hpp>
+#include <arcslip/optimize/evaluation/load_cases.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/results/event_kinds.hpp>
 

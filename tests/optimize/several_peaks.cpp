@@ -4,8 +4,8 @@
 
 #include "optimize/row.hpp"
 
+#include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,11 @@
-#include <arcslip/optimize/search/design_evaluations.hpp>
+#include <arcslip/optimize/evaluation/design_evaluations.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace arcslip::optimize {
 
@@ -23,13 +24,14 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-DesignEvaluations::DesignEvaluations(const scene::Scene& scene, const OptimumProblem& problem,
-                                     const OptimumOptions& options, Watch& watch, bool far_apart)
-    : options_(options),
+DesignEvaluations::DesignEvaluations(const scene::Scene& scene, const OptimumProblem& problem, Watch& watch,
+                                     bool far_apart, int threads,
+                                     std::function<bool(const OptimumProgress&)> progress)
+    : progress_(std::move(progress)),
       watch_(watch),
       space_(scene, problem),
       scenarios_(scene, problem, space_),
-      cases_(problem.criterion, options.threads),
+      cases_(problem.criterion, threads),
       formulation_(problem, space_, cases_),
       far_apart_(far_apart) {
   for (const Scenario& each : scenarios_.first()) add(each);
@@ -66,14 +68,13 @@ void DesignEvaluations::evaluate(std::span<const double> design, bool trace) {
 }
 
 void DesignEvaluations::tell() {
-  if (!options_.progress) return;
-  if (evaluations_.empty()) return;
+  if (!progress_ || evaluations_.empty()) return;
   const Evaluation& last = evaluations_.back();
   const PeakState& state = cases_.state(cases_.highest());
   const double best = best_.excess == 0 ? best_.value : std::numeric_limits<double>::infinity();
-  if (!options_.progress({static_cast<int>(evaluations_.size() + elsewhere_.size()), last.design,
-                          state.peaks.empty() ? 0.0 : state.peaks[state.highest].omega(), last.amplitude,
-                          best, watch_.phase()}))
+  if (!progress_({static_cast<int>(evaluations_.size() + elsewhere_.size()), last.design,
+                  state.peaks.empty() ? 0.0 : state.peaks[state.highest].omega(), last.amplitude, best,
+                  watch_.phase()}))
     watch_.stop();
 }
 

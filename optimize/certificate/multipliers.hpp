@@ -8,7 +8,8 @@
 // with the scaled variables y (scaled_parameter.hpp). The minimum is 0 at a stationary p, and all m_ck add up
 // to 1. Not installed.
 
-#include <arcslip/optimize/search/certificate.hpp>
+#include <arcslip/optimize/evaluation/evaluation.hpp>
+#include <arcslip/optimize/evaluation/load_cases.hpp>
 
 #include <Eigen/Core>
 

@@ -1,4 +1,4 @@
-#include <arcslip/optimize/search/formulation.hpp>
+#include <arcslip/optimize/evaluation/formulation.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/optimize/nlopt/epigraph.hpp>

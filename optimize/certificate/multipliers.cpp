@@ -1,7 +1,8 @@
-#include <arcslip/optimize/search/multipliers.hpp>
+#include <arcslip/optimize/certificate/multipliers.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/optimize/search/scaled_parameter.hpp>
+#include <arcslip/optimize/certificate/certificate.hpp>
+#include <arcslip/optimize/evaluation/scaled_parameter.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include <arcslip/optimize/search/watch.hpp>
+#include <arcslip/optimize/evaluation/watch.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
-#include <arcslip/optimize/search/reasons.hpp>
+#include <arcslip/optimize/evaluation/reasons.hpp>
 
 namespace arcslip::optimize {
 

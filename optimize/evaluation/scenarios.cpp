@@ -1,4 +1,4 @@
-#include <arcslip/optimize/search/scenarios.hpp>
+#include <arcslip/optimize/evaluation/scenarios.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
 

@@ -2,8 +2,11 @@
 // The design parameters of a search, and the scaled variables y seen by NLopt (scaled_parameter.hpp).
 // Not installed.
 
-#include <arcslip/optimize/search/optimum.hpp>
-#include <arcslip/optimize/search/scaled_parameter.hpp>
+#include <arcslip/optimize/evaluation/evaluation.hpp>
+#include <arcslip/optimize/evaluation/optimum_problem.hpp>
+#include <arcslip/optimize/evaluation/scaled_parameter.hpp>
+#include <arcslip/optimize/nlopt/minimize.hpp>
+#include <arcslip/optimize/peaks/peak_amplitude.hpp>
 
 #include <memory>
 #include <span>

@@ -2,12 +2,14 @@
 // The design evaluations of a search: V (load_cases.hpp) at each, the best so far, progress and interruption.
 // Not installed.
 
-#include <arcslip/optimize/search/formulation.hpp>
-#include <arcslip/optimize/search/load_cases.hpp>
-#include <arcslip/optimize/search/scenarios.hpp>
-#include <arcslip/optimize/search/watch.hpp>
+#include <arcslip/optimize/evaluation/formulation.hpp>
+#include <arcslip/optimize/evaluation/load_cases.hpp>
+#include <arcslip/optimize/evaluation/scenarios.hpp>
+#include <arcslip/optimize/evaluation/watch.hpp>
 
+#include <functional>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <string>
@@ -33,10 +35,12 @@ struct Best {
 class DesignEvaluations {
  public:
   /// Starts with the initial scenarios. far_apart: for a global search, whose distant designs may miss a new
-  /// peak: the responses of a new best design are traced. Throws as optimum() does. Refers to its arguments.
-  /// Functions that move the cases throw Interrupted if the watch ends them.
-  DesignEvaluations(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options,
-                    Watch& watch, bool far_apart);
+  /// peak: the responses of a new best design are traced. threads: load cases evaluated at the same time.
+  /// progress: called after each evaluation and at the start of each phase; false stops the watch. Throws as
+  /// optimum() does. Refers to its other arguments. Functions that move the cases throw Interrupted if the
+  /// watch ends them.
+  DesignEvaluations(const scene::Scene& scene, const OptimumProblem& problem, Watch& watch, bool far_apart,
+                    int threads = 1, std::function<bool(const OptimumProgress&)> progress = {});
 
   /// Adds a case and resets the best design.
   void add(const Scenario& scenario);
@@ -80,7 +84,7 @@ class DesignEvaluations {
   void tell();
   Best here();
 
-  const OptimumOptions& options_;
+  std::function<bool(const OptimumProgress&)> progress_;
   Watch& watch_;
   DesignSpace space_;
   Scenarios scenarios_;

@@ -1,4 +1,4 @@
-#include <arcslip/optimize/peaks/follower.hpp>
+#include <arcslip/optimize/peaks/peak_follower.hpp>
 
 #include <utility>
 
@@ -49,18 +49,19 @@ class DesignProblem final : public Problem {
 
 }  // namespace
 
-Follower::Follower(std::shared_ptr<const Problem> equations, std::vector<int> over, const Vector& base)
+PeakFollower::PeakFollower(std::shared_ptr<const Problem> equations, std::vector<int> over,
+                           const Vector& base)
     : point_(std::make_shared<DesignPoint>(DesignPoint{std::move(over), base})),
       problem_(std::make_shared<DesignProblem>(point_, std::move(equations))),
       corrector_(*problem_, Vector::Zero(1), 0, {}, counts_),
       v_(Vector::Zero(problem_->size() + 1)),
       row_(Vector::Unit(problem_->size() + 1, problem_->size())) {}
 
-void Follower::move(std::span<const double> design) {
+void PeakFollower::move(std::span<const double> design) {
   for (std::size_t k = 0; k < design.size(); ++k) point_->p[point_->over[k]] = design[k];
 }
 
-bool Follower::correct(Vector& x, std::span<const double> design) {
+bool PeakFollower::correct(Vector& x, std::span<const double> design) {
   move(design);
   v_.head(x.size()) = x;
   v_[x.size()] = 0;
@@ -69,21 +70,21 @@ bool Follower::correct(Vector& x, std::span<const double> design) {
   return factorized_;
 }
 
-bool Follower::linearize(const Vector& x, std::span<const double> design) {
+bool PeakFollower::linearize(const Vector& x, std::span<const double> design) {
   move(design);
   v_.head(x.size()) = x;
   v_[x.size()] = 0;
   return factorized_ = corrector_.linearize(v_, row_);
 }
 
-bool Follower::is_at(const Vector& x, std::span<const double> design) const {
+bool PeakFollower::is_at(const Vector& x, std::span<const double> design) const {
   if (!factorized_ || v_.head(x.size()) != x) return false;
   for (std::size_t k = 0; k < design.size(); ++k)
     if (point_->p[point_->over[k]] != design[k]) return false;
   return true;
 }
 
-Vector Follower::tangent(std::size_t k) {
+Vector PeakFollower::tangent(std::size_t k) {
   const Eigen::Index n = v_.size() - 1;
   Vector t = Vector::Zero(n + 1);
   at().parameter_derivative(point_->over[k], t.head(n));
@@ -92,7 +93,7 @@ Vector Follower::tangent(std::size_t k) {
   return t.head(n);
 }
 
-Evaluator& Follower::at() {
+Evaluator& PeakFollower::at() {
   return static_cast<AtDesign&>(corrector_.evaluator()).equations();
 }
 

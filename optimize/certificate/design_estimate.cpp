@@ -1,4 +1,4 @@
-#include <arcslip/optimize/search/design_estimate.hpp>
+#include <arcslip/optimize/certificate/design_estimate.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 

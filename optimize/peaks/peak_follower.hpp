@@ -19,10 +19,11 @@ struct DesignPoint {
 };
 
 /// Tracks the solution x(p) of equations E(x, p) = 0.
-class Follower {
+class PeakFollower {
  public:
   /// base: all parameters of the equations.
-  Follower(std::shared_ptr<const continuation::Problem> equations, std::vector<int> over, const Vector& base);
+  PeakFollower(std::shared_ptr<const continuation::Problem> equations, std::vector<int> over,
+               const Vector& base);
 
   /// Newton's method at a design, from x. False if it fails; x is then unchanged.
   bool correct(Vector& x, std::span<const double> design);

@@ -1,4 +1,4 @@
-#include <arcslip/optimize/search/optimality.hpp>
+#include <arcslip/optimize/curve/optimality.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 

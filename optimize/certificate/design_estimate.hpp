@@ -11,7 +11,7 @@
 //
 // where g_i and H_i are the derivatives of A_i, and parameters at a bound stay there. Not installed.
 
-#include <arcslip/optimize/search/multipliers.hpp>
+#include <arcslip/optimize/certificate/multipliers.hpp>
 
 #include <functional>
 #include <vector>

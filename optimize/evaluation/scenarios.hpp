@@ -1,7 +1,7 @@
 #pragma once
 // Scenarios: the cases of a problem with values of the uncertain parameters. Not installed.
 
-#include <arcslip/optimize/search/design_space.hpp>
+#include <arcslip/optimize/evaluation/design_space.hpp>
 
 #include <cstddef>
 #include <functional>

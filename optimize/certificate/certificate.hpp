@@ -2,15 +2,12 @@
 // Optimality certificate: first-order conditions, curvature and tolerance ranges of the optimum of V, the
 // amplitude or the criterion over several cases (load_cases.hpp).
 
-#include <arcslip/optimize/search/load_cases.hpp>
-#include <arcslip/optimize/search/other_responses.hpp>
+#include <arcslip/optimize/certificate/other_responses.hpp>
+#include <arcslip/optimize/evaluation/evaluation.hpp>
 
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <functional>
-#include <span>
-#include <string>
 #include <vector>
 
 namespace arcslip::optimize {
@@ -30,20 +27,6 @@ struct CertifiedPeak {
   bool active = false;              // as high as the highest, within 1e-6; mean: of its case
   double weight = 0;                // Lagrange multiplier; those of the active peaks add up to 1
   std::size_t in_case = 0;          // of Optimum::cases
-};
-
-/// Scaled variables y of the parameters p: ln p, or p over its larger bound if the bounds include zero.
-
-/// A limit c(p) <= 0 that is active, within 1e-6: c = (observable - bound)/|bound| or its negative, or the
-/// same for a linear limit; without |bound| if that is 0.
-struct ActiveLimit {
-  std::string limit;        // the observable, or "a linear limit"
-  std::size_t in_case = 0;  // of Optimum::cases; a linear limit holds in all
-  Vector gradient{};        // dc / dy
-  double slack = 0;         // -c
-  double multiplier = 0;    // relaxing the limit by x of its bound lowers ln V by about x times this
-  bool by_height = false;   // it is exceeded at a peak that is just low enough not to be watched; where that
-                            // peak might be higher by x, relative, ln V would fall by x times the multiplier
 };
 
 /// Tolerances of the Karush-Kuhn-Tucker conditions: a search is complete only below both.
@@ -73,12 +56,5 @@ struct Certificate {
   std::vector<OtherResponse> others;  // found on other branches, at the optimum's design
   bool others_lower = true;  // none of them is higher than the highest of its case (worst: of all, weighted)
 };
-
-/// Certifies the current design of the cases as the optimum; the cases move to other designs meanwhile.
-/// go_on: called between the parts; false ends the certificate early. limits: the active ones. margin: the
-/// largest c(p) of all limits at the current design; none: no limits.
-Certificate certify(LoadCases& cases, std::span<const double> lower, std::span<const double> upper,
-                    std::vector<ActiveLimit> limits = {}, const std::function<double()>& margin = {},
-                    const std::function<bool()>& go_on = {});
 
 }  // namespace arcslip::optimize

@@ -6,8 +6,8 @@
 //
 // Both are a sum over groups of cases of the maximum in the group: one group, or one group for each case.
 
+#include <arcslip/optimize/evaluation/optimum_problem.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
-#include <arcslip/optimize/search/design.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <cstddef>

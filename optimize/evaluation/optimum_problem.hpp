@@ -1,5 +1,5 @@
 #pragma once
-// Design parameters, limits and load cases of an optimization.
+// What an optimization is over: design parameters, limits, load cases, uncertain parameters.
 
 #include <arcslip/scene/scene.hpp>
 
@@ -54,5 +54,21 @@ enum class Criterion { worst, mean };
 
 /// "worst", as in a scene file.
 std::string_view name(Criterion criterion);
+
+struct OptimumProblem {
+  std::vector<DesignVariable> over;
+  double frequency_from = 0, frequency_to = 0;  // window, in the scene's unit
+  std::vector<ObservableLimit> limits{};
+  std::vector<LinearLimit> linear_limits{};
+  std::vector<LoadCase> cases{};  // none: one case, the scene itself
+  Criterion criterion = Criterion::worst;
+  std::vector<DesignVariable> scatter{};  // uncertain parameters; the worst case within these bounds counts
+  friend bool operator==(const OptimumProblem&, const OptimumProblem&) = default;
+};
+
+/// Whether there are several load cases, by cases or by scatter.
+inline bool has_cases(const OptimumProblem& problem) {
+  return !problem.cases.empty() || !problem.scatter.empty();
+}
 
 }  // namespace arcslip::optimize

@@ -19,8 +19,8 @@
 // derivatives (analyses/curves/sensitivity.hpp).
 
 #include <arcslip/continuation/problem/problem.hpp>
+#include <arcslip/optimize/evaluation/scaled_parameter.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
-#include <arcslip/optimize/search/scaled_parameter.hpp>
 
 #include <memory>
 #include <optional>

@@ -2,7 +2,7 @@
 // The current point of a curve of optima: an active set, the unknowns of its equations (optimality.hpp), the
 // direction, and the identification of the active peaks in another response. Not installed.
 
-#include <arcslip/optimize/search/optimality.hpp>
+#include <arcslip/optimize/curve/optimality.hpp>
 
 #include <memory>
 #include <optional>
@@ -16,7 +16,7 @@ struct KnownPeak {
   double omega, amplitude;  // rad/s, m
 };
 
-struct Standing {
+struct ActiveSetPoint {
   ActiveSet active;
   Vector z;
   double sigma = 0;

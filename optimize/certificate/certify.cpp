@@ -1,9 +1,9 @@
-#include <arcslip/optimize/search/certificate.hpp>
+#include <arcslip/optimize/certificate/certify.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/optimize/search/design_estimate.hpp>
-#include <arcslip/optimize/search/design_space.hpp>
-#include <arcslip/optimize/search/multipliers.hpp>
+#include <arcslip/optimize/certificate/design_estimate.hpp>
+#include <arcslip/optimize/certificate/multipliers.hpp>
+#include <arcslip/optimize/evaluation/design_space.hpp>
 
 #include <algorithm>
 #include <cmath>

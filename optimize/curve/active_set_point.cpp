@@ -1,7 +1,7 @@
-#include <arcslip/optimize/curve/standing.hpp>
+#include <arcslip/optimize/curve/active_set_point.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/optimize/search/multipliers.hpp>
+#include <arcslip/optimize/certificate/multipliers.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -38,12 +38,12 @@ std::vector<KnownPeak> known(const std::vector<Peak>& peaks) {
 
 }  // namespace
 
-void Standing::take(const OptimalityEvaluator& at) {
+void ActiveSetPoint::take(const OptimalityEvaluator& at) {
   design = at.design();
   peaks = known(at.active_peaks());
 }
 
-bool Standing::take_tangent(const OptimalityEvaluator& at, const Vector& row) {
+bool ActiveSetPoint::take_tangent(const OptimalityEvaluator& at, const Vector& row) {
   const Matrix along = continuation::kernel(bordered(at, row).topRows(row.size() - 1));
   if (along.cols() != 1) return false;
   tangent = along.col(0).normalized();
@@ -52,22 +52,22 @@ bool Standing::take_tangent(const OptimalityEvaluator& at, const Vector& row) {
   return true;
 }
 
-void Standing::orient(const OptimalityEvaluator& at) {
+void ActiveSetPoint::orient(const OptimalityEvaluator& at) {
   continuation::LU<double> lu;
   lu.factorize(bordered(at, tangent));
   orientation = lu.determinant() > 0 ? 1 : -1;
 }
 
-void Standing::turn_back() {
+void ActiveSetPoint::turn_back() {
   tangent = -tangent;
   orientation = -orientation;
 }
 
-bool Standing::move(OptimalityEvaluator& at) const {
+bool ActiveSetPoint::move(OptimalityEvaluator& at) const {
   return at.move_to(z, Vector::Constant(1, sigma), Needs::jacobian) == continuation::Evaluated::ok;
 }
 
-bool Standing::correct(OptimalityEvaluator& at) {
+bool ActiveSetPoint::correct(OptimalityEvaluator& at) {
   for (int k = 0; k < most_corrections; ++k) {
     if (!move(at)) return false;
     const Vector dz = continuation::solve_any(std::get<Matrix>(at.jacobian()), at.residual());

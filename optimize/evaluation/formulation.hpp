@@ -7,9 +7,9 @@
 // In both forms with a constraint for each limit on an observable at each peak of each case, and
 // linear limits.
 
+#include <arcslip/optimize/evaluation/design_space.hpp>
+#include <arcslip/optimize/evaluation/load_cases.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
-#include <arcslip/optimize/search/design_space.hpp>
-#include <arcslip/optimize/search/load_cases.hpp>
 
 #include <cstddef>
 #include <functional>

@@ -1,4 +1,4 @@
-#include <arcslip/optimize/search/design_space.hpp>
+#include <arcslip/optimize/evaluation/design_space.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/observables/quantities.hpp>

@@ -1,4 +1,4 @@
-#include <arcslip/optimize/search/load_cases.hpp>
+#include <arcslip/optimize/evaluation/load_cases.hpp>
 
 #include <arcslip/control/ordered_parallel_for.hpp>
 
