@@ -5,6 +5,7 @@
 #include <arcslip/optimize/certificate/multipliers.hpp>
 #include <arcslip/optimize/evaluation/design_evaluations.hpp>
 #include <arcslip/optimize/nlopt/minimize.hpp>
+#include <arcslip/optimize/search/convergence.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 
 #include <limits>
@@ -21,6 +22,43 @@ inline void add(const PeakWork& more, PeakWork& to) {
   to.factorizations += more.factorizations;
 }
 
+/// What a search changes on its way, but for the designs that it has evaluated.
+struct SearchState {
+  static constexpr double none = std::numeric_limits<double>::infinity();
+
+  Algorithm algorithm;          // the current one
+  Optimum result{};             // so far
+  std::vector<double> start{};  // of the next round
+  double reference = 1;         // V at the first start
+  bool ended = false;           // no round follows
+  struct Round {
+    int number = 0;                      // since a start was found
+    int responses = 0;                   // traced before it
+    double value = none, excess = none;  // the best before it
+    bool new_peak = false;               // in its last response
+  } round{};
+  int new_peaks = 0;             // rounds that ended with one
+  double stuck_value = none;     // the lowest V at which stuck dampers were released
+  double refined = 0;            // V at the last refinement
+  std::size_t refinements = 0;   // by other algorithms
+  int restarts = 0;              // from lower designs next to a minimum
+  bool sought_feasible = false;  // by designs sampled over the bounds
+  struct Minimum {
+    double value;
+    observables::Status status;
+    observables::Stop stop;
+  };
+
+  // Of the searches from several designs.
+  bool sought_elsewhere = false;
+  std::optional<Minimum> minimum_left{};  // the minimum from which they led elsewhere
+  PeakWork work_elsewhere{};
+  std::vector<Evaluation> minima{};        // where they led, in their order
+  int to_no_minimum = 0;                   // of them
+  bool led_on_from_none = false;           // the search went on from where one of these ended
+  std::optional<Evaluation> ended_near{};  // the one of them next to which the current search was ended
+};
+
 class Search {
  public:
   Search(const scene::Scene& scene, const OptimumProblem& problem, const OptimumOptions& options);
@@ -34,10 +72,19 @@ class Search {
   std::string after();  // " after 12 evaluations"
   void note(std::string sentence);
 
-  void search();
+  // After a start come rounds of an algorithm, each with new responses at its best design; then the worst
+  // case of the scatter at the design found, which may become a case of the search from there; at the end the
+  // judgement whether that is a minimum. Each phase is carried out and chooses the next.
+  enum class Phase { start, round, verification, scatter, judgement, end };
+  Phase carry_out(Phase phase);
+  Optimum finish();
+
   void begin();
   bool interrupted();
+  void minimize_round();
   void minimize_once();
+  MinimizeOptions options_of_round();
+  void take(MinimizeResult found, Convergence::Ends by, double stationarity);
   std::string sentence(const MinimizeResult& found);
   // Traces the responses at the best design. True if the search is to continue: with a new higher peak, or
   // because peaks appeared and vanished during a round with progress.
@@ -56,6 +103,9 @@ class Search {
   // True if the search is to continue, from another start or by another algorithm. Otherwise certifies
   // the optimum.
   bool goes_on();
+  void return_to_minimum();
+  bool leave_infeasible();
+  bool certify_best();
   bool move_to_best();
   // An algorithm may report convergence at no minimum: coming from outside the limits it may have moved to
   // a lower infeasible design, and its best is then only the last feasible one. Other algorithms continue
@@ -100,37 +150,9 @@ class Search {
   const OptimumOptions& options_;
   const bool limited_;
   const Algorithm asked_;  // requested
-  Algorithm algorithm_;    // current
   Watch watch_;
   DesignEvaluations designs_;
-  Optimum result_;
-  std::vector<double> start_;
-  double reference_ = 1;  // V at the start
-  struct Round {
-    int responses = 0;                                                       // traced before it
-    double value = std::numeric_limits<double>::infinity(), excess = value;  // the best before it
-    bool new_peak = false;                                                   // in its last response
-  } round_;
-  int new_peaks_ = 0;  // rounds that ended with one
-  /// The lowest V at which stuck dampers were released.
-  double stuck_value_ = std::numeric_limits<double>::infinity();
-  double refined_ = 0;             // V at the last refinement
-  std::size_t refinements_ = 0;    // by other algorithms
-  int restarts_ = 0;               // from lower designs next to a minimum
-  bool sought_feasible_ = false;   // by designs sampled over the bounds
-  bool sought_elsewhere_ = false;  // by further searches
-  struct Minimum {
-    double value;
-    observables::Status status;
-    observables::Stop stop;
-  };
-  std::optional<Minimum> minimum_left_{};  // the minimum from which further searches led elsewhere
-  PeakWork work_elsewhere_{};
-  std::vector<Evaluation> minima_{};        // where the searches from several designs led, in their order
-  int to_no_minimum_ = 0;                   // of them
-  bool led_on_from_none_ = false;           // the search went on from where one of these ended
-  std::optional<Evaluation> ended_near_{};  // the one of them next to which the current search was ended
-  bool ended_ = false;
+  SearchState s_;
   bool is_part_ = false;  // of another search, which checks the window itself
 };
 

@@ -38,32 +38,43 @@ constexpr std::array ladder = {"LD_CCSAQ", "LD_SLSQP", "LN_COBYLA", "LD_SLSQP"};
 }  // namespace
 
 bool Search::goes_on() {
-  if (minimum_left_ && result_.status == Status::failed && best().value == minimum_left_->value &&
-      result_.stop.reason != reasons::objective_failed) {  // it led to nothing
-    result_.status = minimum_left_->status;
-    result_.stop = minimum_left_->stop;
-  }
-  minimum_left_.reset();
-  if (result_.status == Status::complete && interrupted()) return false;
+  return_to_minimum();
+  if (s_.result.status == Status::complete && interrupted()) return false;
   designs_.recall_best();
-  if (result_.status != Status::complete || best().design.empty() || !std::isfinite(best().value))
+  if (s_.result.status != Status::complete || best().design.empty() || !std::isfinite(best().value))
     return false;
-  if (best().excess > 0) {
-    if (find_feasible() || look_elsewhere(false)) return true;
-    if (interrupted()) return false;
-    result_.status = Status::stopped;
-    result_.stop.reason = reasons::infeasible;
-    result_.stop.message = "no feasible design was found: " + result_.stop.message;
-    return false;
-  }
-  if (result_.stop.reason == reasons::flat) return false;
-  if (!move_to_best()) return false;
+  if (best().excess > 0) return leave_infeasible();
+  if (s_.result.stop.reason == reasons::flat || !move_to_best()) return false;
   if (const Balance left = balance_here(designs_); !is_stationary(left)) return refine(left);
-  if (look_elsewhere(true)) return true;
+  return look_elsewhere(true) || certify_best();
+}
+
+// If further searches from a minimum led to nothing, it is the result.
+void Search::return_to_minimum() {
+  if (s_.minimum_left && s_.result.status == Status::failed && best().value == s_.minimum_left->value &&
+      s_.result.stop.reason != reasons::objective_failed) {
+    s_.result.status = s_.minimum_left->status;
+    s_.result.stop = s_.minimum_left->stop;
+  }
+  s_.minimum_left.reset();
+}
+
+// True if the search is to continue, from a feasible design or elsewhere.
+bool Search::leave_infeasible() {
+  if (find_feasible() || look_elsewhere(false)) return true;
+  if (interrupted()) return false;
+  s_.result.status = Status::stopped;
+  s_.result.stop.reason = reasons::infeasible;
+  s_.result.stop.message = "no feasible design was found: " + s_.result.stop.message;
+  return false;
+}
+
+// True if the search is to continue, from a lower design that was seen.
+bool Search::certify_best() {
   if (interrupted() || !options_.certificate || !move_to_best()) return false;
   designs_.begin("the certificate");
   describe();
-  result_.certificate = certify(
+  s_.result.certificate = certify(
       cases(), space().lower(), space().upper(), designs_.formulation().active(),
       [this] { return designs_.formulation().margin(); }, [this] { return watch_.go_on(); });
   return !interrupted() && passed_lower();
@@ -75,31 +86,31 @@ bool Search::move_to_best() {
 }
 
 void Search::go_from(const std::vector<double>& design) {
-  start_ = design;
-  stuck_value_ = HUGE_VAL;
-  refinements_ = 0;
-  algorithm_ = asked_;
+  s_.start = design;
+  s_.stuck_value = HUGE_VAL;
+  s_.refinements = 0;
+  s_.algorithm = asked_;
 }
 
 bool Search::refine(const Balance& left) {
-  if (refinements_ < ladder.size() && best().value != refined_) {
-    const std::size_t next = refinements_;
-    note(text(algorithm_.name, " ended at ", space().text(best().design), " with residual gradient ",
+  if (s_.refinements < ladder.size() && best().value != s_.refined) {
+    const std::size_t next = s_.refinements;
+    note(text(s_.algorithm.name, " ended at ", space().text(best().design), " with residual gradient ",
               left.stationarity, "; ", ladder[next], " continued from there"));
     go_from(best().design);
-    refinements_ = next + 1;
-    algorithm_ = algorithm(ladder[next]);
+    s_.refinements = next + 1;
+    s_.algorithm = algorithm(ladder[next]);
     return true;
   }
-  refined_ = best().value;
+  s_.refined = best().value;
   if (look_elsewhere(false)) return true;
   if (interrupted()) return false;
-  result_.status = Status::stopped;
-  result_.stop.reason = reasons::not_stationary;
-  result_.stop.message = text("no algorithm reached a minimum: residual gradient ", left.stationarity,
-                              " (at most ", most_stationarity, "), complementarity ", left.complementarity,
-                              " (at most ", most_complementarity, ")", after()) +
-                         jump(left);
+  s_.result.status = Status::stopped;
+  s_.result.stop.reason = reasons::not_stationary;
+  s_.result.stop.message = text("no algorithm reached a minimum: residual gradient ", left.stationarity,
+                                " (at most ", most_stationarity, "), complementarity ", left.complementarity,
+                                " (at most ", most_complementarity, ")", after()) +
+                           jump(left);
   return false;
 }
 
@@ -123,7 +134,7 @@ std::string Search::jump(const Balance& left) {
 }
 
 bool Search::find_feasible() {
-  if (std::exchange(sought_feasible_, true)) return false;
+  if (std::exchange(s_.sought_feasible, true)) return false;
   designs_.begin("the search for a feasible design");
   const std::string exceeds = space().text(best().design);
   for (int k = 0; k < space().attempts() + space().samples() && best().excess > 0; ++k) {
@@ -134,7 +145,7 @@ bool Search::find_feasible() {
   if (best().excess > 0) return false;
   go_from(best().design);
   note("the search reached " + exceeds + ", where a limit is exceeded, and continued from " +
-       space().text(start_) + ", where none is");
+       space().text(s_.start) + ", where none is");
   return true;
 }
 
@@ -166,7 +177,7 @@ Optimum Search::search_from(const Beginning& beginning) {
   options.seconds = 0;
   options.certificate = false;
   options.starts = 1;
-  ended_near_.reset();
+  s_.ended_near.reset();
   std::exception_ptr thrown;
   options.progress = [&](OptimumProgress now) {
     now.evaluations += static_cast<int>(count() + designs_.elsewhere().size());
@@ -178,8 +189,8 @@ Optimum Search::search_from(const Beginning& beginning) {
       thrown = std::current_exception();
       watch_.stop();
     }
-    if (!limited_ && !ended_near_) ended_near_ = known_minimum(now.design, now.amplitude);
-    return !watch_.stopped() && !ended_near_;
+    if (!limited_ && !s_.ended_near) s_.ended_near = known_minimum(now.design, now.amplitude);
+    return !watch_.stopped() && !s_.ended_near;
   };
   options.go_on = [this] { return watch_.go_on(); };
   Search part(there, problem_, options);
@@ -187,7 +198,7 @@ Optimum Search::search_from(const Beginning& beginning) {
   Optimum found = part.run();
   if (thrown) std::rethrow_exception(thrown);
   designs_.elsewhere().insert(designs_.elsewhere().end(), found.evaluations.begin(), found.evaluations.end());
-  add(found.work, work_elsewhere_);
+  add(found.work, s_.work_elsewhere);
   return found;
 }
 
@@ -200,47 +211,47 @@ std::optional<Evaluation> Search::known_minimum(std::span<const double> design, 
     const double above = value / minimum.amplitude - 1;
     return above > -same_minimum && above < next_above && space().distance(design, minimum.design) < next_to;
   };
-  const auto found = std::find_if(minima_.begin(), minima_.end(), leads_to);
-  if (found == minima_.end()) return {};
+  const auto found = std::find_if(s_.minima.begin(), s_.minima.end(), leads_to);
+  if (found == s_.minima.end()) return {};
   return *found;
 }
 
 void Search::count_start(const Optimum& found) {
-  if (ended_near_)
-    minima_.push_back(*ended_near_);
+  if (s_.ended_near)
+    s_.minima.push_back(*s_.ended_near);
   else if (found.status == Status::complete && found.feasible && !found.design.empty())
-    minima_.push_back({found.design, found.amplitude});
+    s_.minima.push_back({found.design, found.amplitude});
   else
-    ++to_no_minimum_;
+    ++s_.to_no_minimum;
 }
 
 void Search::count_starts() {
-  if (minima_.empty() || !result_.feasible) return;
-  Starts starts{.count = static_cast<int>(minima_.size()) + to_no_minimum_,
+  if (s_.minima.empty() || !s_.result.feasible) return;
+  Starts starts{.count = static_cast<int>(s_.minima.size()) + s_.to_no_minimum,
                 .to_optimum = 0,
-                .to_none = to_no_minimum_,
-                .highest = result_.amplitude};
-  for (const Evaluation& each : minima_) {
-    starts.to_optimum += each.amplitude <= (1 + same_minimum) * result_.amplitude;
+                .to_none = s_.to_no_minimum,
+                .highest = s_.result.amplitude};
+  for (const Evaluation& each : s_.minima) {
+    starts.to_optimum += each.amplitude <= (1 + same_minimum) * s_.result.amplitude;
     starts.highest = std::max(starts.highest, each.amplitude);
   }
   if (starts.to_optimum == 0) {  // the search went on lower from where one of them ended
     starts.to_optimum = 1;
-    if (led_on_from_none_) --starts.to_none;
+    if (s_.led_on_from_none) --starts.to_none;
   }
-  result_.starts = starts;
+  s_.result.starts = starts;
 }
 
 bool Search::look_elsewhere(bool at_minimum) {
-  if (!has_several_starts() || std::exchange(sought_elsewhere_, true)) return false;
+  if (!has_several_starts() || std::exchange(s_.sought_elsewhere, true)) return false;
   designs_.begin("the search elsewhere");
   const std::vector<double> here = best().design;
   const bool within = best().excess == 0;
   double least = within ? (1 - gain) * best().value : HUGE_VAL;
   if (at_minimum)
-    minima_.push_back({here, best().value});
+    s_.minima.push_back({here, best().value});
   else
-    ++to_no_minimum_;
+    ++s_.to_no_minimum;
   const std::vector<Beginning> all = beginnings(within);
   std::vector<double> lower;
   if (within && best().value < least) {
@@ -254,7 +265,7 @@ bool Search::look_elsewhere(bool at_minimum) {
     if (!found.feasible || found.design.empty() || !(found.amplitude < least)) continue;
     least = found.amplitude;
     lower = found.design;
-    led_on_from_none_ = found.status != Status::complete && !ended_near_;
+    s_.led_on_from_none = found.status != Status::complete && !s_.ended_near;
   }
   if (lower.empty() || watch_.stopped()) return false;
   designs_.evaluate(lower, true);
@@ -262,7 +273,7 @@ bool Search::look_elsewhere(bool at_minimum) {
   note("the search reached " + space().text(here) +
        (within ? ", and continued from the lower " : ", where a limit is exceeded, and continued from ") +
        space().text(lower) + " found elsewhere");
-  minimum_left_ = {best().value, result_.status, result_.stop};
+  s_.minimum_left = {best().value, s_.result.status, s_.result.stop};
   go_from(lower);  // a limit that is active may be exceeded there, by rounding
   return true;
 }
@@ -297,16 +308,16 @@ std::vector<std::vector<double>> Search::lowest_elsewhere() {
 }
 
 bool Search::passed_lower() {
-  const std::vector<double> lower = std::exchange(result_.certificate->lower_design, {});
+  const std::vector<double> lower = std::exchange(s_.result.certificate->lower_design, {});
   if (lower.empty()) return false;
   const double value = best().value;
   const std::string left = space().text(best().design);
   designs_.evaluate(lower, true);
   if (best().excess > 0 || !(best().value < (1 - gain) * value)) return false;
-  if (restarts_++ == most_restarts) {
-    result_.status = Status::stopped;
-    result_.stop.reason = reasons::lower_beside;
-    result_.stop.message = text("next to each of ", most_restarts, " minima there was a lower design");
+  if (s_.restarts++ == most_restarts) {
+    s_.result.status = Status::stopped;
+    s_.result.stop.reason = reasons::lower_beside;
+    s_.result.stop.message = text("next to each of ", most_restarts, " minima there was a lower design");
     return false;
   }
   go_from(lower);
@@ -315,12 +326,12 @@ bool Search::passed_lower() {
 }
 
 void Search::describe() {
-  if (result_.design == best().design && !result_.cases.empty()) return;
-  result_.design = best().design;
-  result_.amplitude = best().value;
-  result_.feasible = best().excess == 0;
-  result_.cases.clear();
-  result_.certificate.reset();
+  if (s_.result.design == best().design && !s_.result.cases.empty()) return;
+  s_.result.design = best().design;
+  s_.result.amplitude = best().value;
+  s_.result.feasible = best().excess == 0;
+  s_.result.cases.clear();
+  s_.result.certificate.reset();
   if (best().design.empty() || !std::isfinite(best().value)) return;
   double most = 0;
   for (std::size_t c = 0; c < best().cases.size(); ++c) {
@@ -330,19 +341,19 @@ void Search::describe() {
     each.point = cases().peaks(c).observe(state, problem);
     if (cases().weight(c) * each.amplitude > most) {
       most = cases().weight(c) * each.amplitude;
-      result_.point = each.point;
+      s_.result.point = each.point;
     }
-    result_.cases.push_back(std::move(each));
+    s_.result.cases.push_back(std::move(each));
   }
   if (!cases().is_at(best().design)) {  // interrupted elsewhere
-    for (std::size_t c = 0; c < result_.cases.size(); ++c)
-      result_.cases[c].active =
-          cases().groups() > 1 || cases().weight(c) * result_.cases[c].amplitude >= (1 - active_case) * most;
+    for (std::size_t c = 0; c < s_.result.cases.size(); ++c)
+      s_.result.cases[c].active = cases().groups() > 1 || cases().weight(c) * s_.result.cases[c].amplitude >=
+                                                              (1 - active_case) * most;
     return;
   }
   for (const ActivePeak& peak : balance_here(designs_).active) {
-    result_.cases[peak.in_case].active = true;
-    result_.cases[peak.in_case].multiplier += peak.multiplier;
+    s_.result.cases[peak.in_case].active = true;
+    s_.result.cases[peak.in_case].multiplier += peak.multiplier;
   }
 }
 
