@@ -19,47 +19,52 @@ struct Active {
   continuation::Matrix hessian;
 };
 
-}  // namespace
-
-DesignEstimate design_estimate(const LoadCases& cases, const Balance& balance,
-                               const std::function<bool()>& go_on) {
-  DesignEstimate result;
-  const std::vector<double>& design = cases.state(0).design;
-  const bool limited = std::any_of(balance.limits.begin(), balance.limits.end(),
-                                   [](const ActiveLimit& limit) { return limit.multiplier > 0; });
-  if (limited || !std::isfinite(cases.value())) return result;
-  std::vector<Eigen::Index> free;
-  for (std::size_t k = 0; k < design.size(); ++k)
-    if (balance.at_bound[k] == 0) free.push_back(static_cast<Eigen::Index>(k));
-  const auto n = static_cast<Eigen::Index>(free.size());
+// The active peaks with a weight, differentiated by the parameters in `free`. Empty: not known. flagged: set
+// where the change of one may be too low.
+std::vector<Active> differentiated(const LoadCases& cases, const Balance& balance,
+                                   const std::vector<Eigen::Index>& free, const std::function<bool()>& go_on,
+                                   bool& flagged) {
+  const auto change = [](const observables::ResponsePoint& at) { return at.truncation_change; };
   std::vector<Active> all;
   for (const ActivePeak& each : balance.active) {
     if (each.multiplier < without_weight) continue;
     PeakAmplitude& peaks = cases.peaks(each.in_case);
     const Peak& peak = cases.state(each.in_case).peaks[each.peak];
     const auto point = peaks.observe(peak);
-    const auto change = [](const observables::ResponsePoint& at) { return at.truncation_change; };
-    result.flagged = result.flagged || point.truncation_flagged;
+    flagged = flagged || point.truncation_flagged;
     Active& active = all.emplace_back(Active{.group = cases.group(each.in_case),
                                              .share = each.multiplier * cases.value() / peak.amplitude,
                                              .weight = cases.weight(each.in_case),
                                              .change = change(point),
                                              .gradient = peak.gradient(free),
-                                             .of_change = Vector(n),
+                                             .of_change = Vector(static_cast<Eigen::Index>(free.size())),
                                              .hessian = peaks.hessian(each.peak)});
-    if (active.hessian.size() == 0) return result;
-    for (Eigen::Index k = 0; k < n; ++k) {
-      if (go_on && !go_on()) return result;
-      active.of_change[k] = peaks.change(each.peak, static_cast<std::size_t>(free[k]), change);
+    if (active.hessian.size() == 0) return {};
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      if (go_on && !go_on()) return {};
+      active.of_change[static_cast<Eigen::Index>(k)] =
+          peaks.change(each.peak, static_cast<std::size_t>(free[k]), change);
     }
   }
+  return all;
+}
+
+// J x = r for x = (dp of the free parameters; and for each group of several peaks their dmu, and dtau).
+struct Equations {
+  continuation::Matrix J;
+  Vector r, scale;  // scale: of x, in amplitudes; of dp 1
+};
+
+Equations equations_of(const std::vector<Active>& all, const LoadCases& cases,
+                       const std::vector<Eigen::Index>& free) {
+  const auto n = static_cast<Eigen::Index>(free.size());
   const auto members = [&](std::size_t group) {
     return std::count_if(all.begin(), all.end(), [&](const Active& each) { return each.group == group; });
   };
   Eigen::Index size = n;
   for (std::size_t g = 0; g < cases.groups(); ++g) size += members(g) > 1 ? members(g) + 1 : 0;
-  continuation::Matrix J = continuation::Matrix::Zero(size, size);
-  Vector r = Vector::Zero(size), scale = Vector::Ones(size);
+  Equations made{continuation::Matrix::Zero(size, size), Vector::Zero(size), Vector::Ones(size)};
+  auto& [J, r, scale] = made;
   Eigen::Index next = n;
   for (std::size_t g = 0; g < cases.groups(); ++g) {
     const bool several = members(g) > 1;
@@ -76,7 +81,26 @@ DesignEstimate design_estimate(const LoadCases& cases, const Balance& balance,
     }
     if (several) scale[next++] = cases.value();
   }
-  if (size == 0) {
+  return made;
+}
+
+}  // namespace
+
+DesignEstimate design_estimate(const LoadCases& cases, const Balance& balance,
+                               const std::function<bool()>& go_on) {
+  DesignEstimate result;
+  const std::vector<double>& design = cases.state(0).design;
+  const bool limited = std::any_of(balance.limits.begin(), balance.limits.end(),
+                                   [](const ActiveLimit& limit) { return limit.multiplier > 0; });
+  if (limited || !std::isfinite(cases.value())) return result;
+  std::vector<Eigen::Index> free;
+  for (std::size_t k = 0; k < design.size(); ++k)
+    if (balance.at_bound[k] == 0) free.push_back(static_cast<Eigen::Index>(k));
+  const auto n = static_cast<Eigen::Index>(free.size());
+  const std::vector<Active> all = differentiated(cases, balance, free, go_on, result.flagged);
+  if (all.empty()) return result;
+  auto [J, r, scale] = equations_of(all, cases, free);
+  if (r.size() == 0) {
     result.change.assign(design.size(), 0);
     return result;
   }

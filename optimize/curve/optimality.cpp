@@ -38,26 +38,45 @@ OptimalityEvaluator::OptimalityEvaluator(std::shared_ptr<const OptimalityData> d
 }
 
 Evaluated OptimalityEvaluator::move_to(In z, In p, Needs needs) {
+  if (!move_design(z, p[0]) || !data_->peaks.follow_to(design_, data_->active.peaks))
+    return Evaluated::outside_domain;
+  lambda_[0] = 1 - z.segment(free_, active_ - 1).sum();
+  lambda_.tail(active_ - 1) = z.segment(free_, active_ - 1);
+  tau_ = z[free_ + active_ - 1];
+  look_at_peaks();
+  if (std::any_of(peaks_.begin(), peaks_.end(), [](const Peak& peak) { return peak.rises_inwards(); }))
+    return Evaluated::outside_domain;
+  for (Eigen::Index k = 0; k < free_; ++k)
+    E_[k] = gradients_.row(free_parameters_[static_cast<std::size_t>(k)]).dot(lambda_);
+  if (!E_.allFinite()) return Evaluated::failed;
+  if (needs == Needs::residual) return Evaluated::ok;
+  if (!add_second_derivatives()) return Evaluated::failed;
+  differentiate();
+  return Evaluated::ok;
+}
+
+// Sets y and the design, with the free parameters of z and those fixed at their bounds. False: not finite.
+bool OptimalityEvaluator::move_design(In z, double sigma) {
   Eigen::Index next = 0;
   for (std::size_t k = 0; k < design_.size(); ++k) {
     const ScaledParameter& scaled = data_->scaled[k];
     const bool is_along = k + 1 == design_.size();
     const int side = is_along ? 0 : data_->active.held[k];
-    const double y = is_along ? p[0] : side != 0 ? scaled.scaled(scaled.bound(side)) : z[next++];
+    const double y = is_along ? sigma : side != 0 ? scaled.scaled(scaled.bound(side)) : z[next++];
     y_[static_cast<Eigen::Index>(k)] = y;
     design_[k] = side != 0 ? scaled.bound(side) : scaled.value(y);
-    if (!std::isfinite(design_[k])) return Evaluated::outside_domain;
+    if (!std::isfinite(design_[k])) return false;
   }
-  if (!data_->peaks.follow_to(design_, data_->active.peaks)) return Evaluated::outside_domain;
-  lambda_[0] = 1 - z.segment(free_, active_ - 1).sum();
-  lambda_.tail(active_ - 1) = z.segment(free_, active_ - 1);
-  tau_ = z[free_ + active_ - 1];
+  return true;
+}
+
+// Sets the levels of all peaks, the highest one that is not active, and what the active ones add to the
+// equations.
+void OptimalityEvaluator::look_at_peaks() {
+  const auto& active = data_->active.peaks;
   all_ = data_->peaks.state().peaks;
   levels_.clear();
   other_.reset();
-  peaks_.clear();
-  piece_ = 0;
-  const auto& active = data_->active.peaks;
   for (std::size_t i = 0; i < all_.size(); ++i) {
     levels_.push_back(std::log(all_[i].amplitude / data_->reference));
     if (std::find(active.begin(), active.end(), i) != active.end() || all_[i].kind == PeakKind::kink ||
@@ -65,27 +84,34 @@ Evaluated OptimalityEvaluator::move_to(In z, In p, Needs needs) {
       continue;
     if (!other_ || levels_[i] > levels_[*other_]) other_ = i;
   }
+  peaks_.clear();
+  piece_ = 0;
   for (Eigen::Index i = 0; i < active_; ++i) {
     const std::size_t at = active[static_cast<std::size_t>(i)];
-    const Peak& peak = all_[at];
-    if (peak.rises_inwards()) return Evaluated::outside_domain;
-    peaks_.push_back(peak);
+    const Peak& peak = peaks_.emplace_back(all_[at]);
     piece_ = 31 * piece_ + peak.piece;
-    for (std::size_t k = 0; k < design_.size(); ++k) {
-      const auto row = static_cast<Eigen::Index>(k);
-      gradients_(row, i) = peak.gradient[row] * data_->scaled[k].slope(design_[k]) / peak.amplitude;
-    }
+    gradients_.col(i) = scaled_gradient(peak, design_.size());
     E_[free_ + i] = levels_[at] - tau_;
   }
-  for (Eigen::Index k = 0; k < free_; ++k)
-    E_[k] = gradients_.row(free_parameters_[static_cast<std::size_t>(k)]).dot(lambda_);
-  if (!E_.allFinite()) return Evaluated::failed;
-  if (needs == Needs::residual) return Evaluated::ok;
+}
+
+// df_i/dy of so many parameters.
+Vector OptimalityEvaluator::scaled_gradient(const Peak& peak, std::size_t parameters) const {
+  Vector gradient(static_cast<Eigen::Index>(parameters));
+  for (std::size_t k = 0; k < parameters; ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    gradient[row] = peak.gradient[row] * data_->scaled[k].slope(design_[k]) / peak.amplitude;
+  }
+  return gradient;
+}
+
+// False: those of a peak are not known.
+bool OptimalityEvaluator::add_second_derivatives() {
   second_.setZero();
   for (Eigen::Index i = 0; i < active_; ++i) {
-    const std::size_t at = active[static_cast<std::size_t>(i)];
+    const std::size_t at = data_->active.peaks[static_cast<std::size_t>(i)];
     const Matrix H = data_->peaks.hessian(at);
-    if (H.size() == 0) return Evaluated::failed;
+    if (H.size() == 0) return false;
     const Peak& peak = all_[at];
     for (std::size_t k = 0; k < design_.size(); ++k) {
       const auto row = static_cast<Eigen::Index>(k);
@@ -100,8 +126,7 @@ Evaluated OptimalityEvaluator::move_to(In z, In p, Needs needs) {
           lambda_[i] * peak.gradient[row] * data_->scaled[k].second(design_[k]) / peak.amplitude;
     }
   }
-  differentiate();
-  return Evaluated::ok;
+  return true;
 }
 
 void OptimalityEvaluator::differentiate() {
@@ -136,13 +161,7 @@ double OptimalityEvaluator::slack(const Inequality& of) const {
 }
 
 continuation::Vector OptimalityEvaluator::gradient(std::size_t peak) const {
-  const Eigen::Index m = y_.size() - 1;
-  Vector all(m);
-  for (Eigen::Index k = 0; k < m; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    all[k] = all_[peak].gradient[k] * data_->scaled[at].slope(design_[at]) / all_[peak].amplitude;
-  }
-  return all;
+  return scaled_gradient(all_[peak], design_.size() - 1);
 }
 
 bool OptimalityEvaluator::is_minimum() const {

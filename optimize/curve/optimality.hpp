@@ -83,6 +83,10 @@ class OptimalityEvaluator final : public continuation::Evaluator {
   bool is_minimum() const;
 
  private:
+  bool move_design(continuation::In z, double sigma);
+  void look_at_peaks();
+  continuation::Vector scaled_gradient(const Peak& peak, std::size_t parameters) const;
+  bool add_second_derivatives();
   void differentiate();
 
   std::shared_ptr<const OptimalityData> data_;
