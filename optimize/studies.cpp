@@ -146,14 +146,15 @@ Key with_schema(Key key, std::string_view schema) {
   return key;
 }
 
-KeysOf<OptimumSettings> keys() {
-  using S = OptimumSettings;
-  const auto of_problem = [](KeyGroup<OptimumProblem> group) {
-    return within(&S::problem, std::move(group));
-  };
-  const auto of_search = [](KeyGroup<SearchSettings> group) { return within(&S::search, std::move(group)); };
-  constexpr const char* algorithm = "a string, the name of an NLopt algorithm";
-  KeysOf<S> keys;
+KeyGroup<OptimumSettings> of_problem(KeyGroup<OptimumProblem> group) {
+  return within(&OptimumSettings::problem, std::move(group));
+}
+
+KeyGroup<OptimumSettings> of_search(KeyGroup<SearchSettings> group) {
+  return within(&OptimumSettings::search, std::move(group));
+}
+
+void add_design(KeysOf<OptimumSettings>& keys) {
   keys.add(of_problem({{{"over", KeyType::parameters, "", "parameters \"part.field\" or ties", "", true,
                          "the design parameters"},
                         with_schema({"bounds", KeyType::other, "parameter", "a pair [lower, upper] for each",
@@ -166,6 +167,10 @@ KeysOf<OptimumSettings> keys() {
                        },
                        drop_from}));
   keys.add(of_problem(window(&OptimumProblem::frequency_from, &OptimumProblem::frequency_to)));
+}
+
+void add_search(KeysOf<OptimumSettings>& keys) {
+  constexpr const char* algorithm = "a string, the name of an NLopt algorithm";
   keys.add(of_search(scene::file::text("algorithm", &SearchSettings::algorithm, algorithm,
                                        "\"" + std::string(default_algorithm) + "\"", "the NLopt algorithm")));
   keys.add(of_search(scene::file::text("local", &SearchSettings::local, algorithm, "",
@@ -185,6 +190,9 @@ KeysOf<OptimumSettings> keys() {
                       "with several parameters or constraints: how many designs local searches start from "
                       "at most, the scene's own and the lowest of designs spread over the bounds; 1: only "
                       "its own")));
+}
+
+void add_demands(KeysOf<OptimumSettings>& keys) {
   keys.add(of_problem(
       {{with_schema({"constraints", KeyType::other, "", "a list of objects", "[]", false,
                      "limits on observables of the peaks and on linear combinations of parameters"},
@@ -205,25 +213,37 @@ KeysOf<OptimumSettings> keys() {
                     scatter_schema)},
        read_scatter,
        write_scatter}));
-  keys.add({{{"along", KeyType::followed, "", "a parameter \"part.field\" or a tie", "", false,
-              "the parameter over which the optimum is continued"},
-             with_schema({"from", KeyType::other, "parameter", "within the parameter's bounds", "", false,
-                          "first value of that parameter"},
-                         number_schema),
-             with_schema({"to", KeyType::other, "parameter", "above \"from\"", "", false,
-                          "last value of that parameter"},
-                         number_schema)},
-            read_along,
-            [](const S& settings, const scene::Scene&, Node::Object& to) {
-              if (!settings.along) return;
-              to.push_back({"along", node(settings.along->name)});
-              to.push_back({"from", node(settings.along->lower)});
-              to.push_back({"to", node(settings.along->upper)});
-            },
-            [](const S& settings, std::vector<ParameterUse>& all) {
-              if (settings.along) all.push_back({settings.along->name, "which the study goes \"along\""});
-            }});
-  keys.check([](const Reading& reading, S& settings) { check_criterion(reading, settings.problem); });
+}
+
+KeyGroup<OptimumSettings> along() {
+  return {{{"along", KeyType::followed, "", "a parameter \"part.field\" or a tie", "", false,
+            "the parameter over which the optimum is continued"},
+           with_schema({"from", KeyType::other, "parameter", "within the parameter's bounds", "", false,
+                        "first value of that parameter"},
+                       number_schema),
+           with_schema({"to", KeyType::other, "parameter", "above \"from\"", "", false,
+                        "last value of that parameter"},
+                       number_schema)},
+          read_along,
+          [](const OptimumSettings& settings, const scene::Scene&, Node::Object& to) {
+            if (!settings.along) return;
+            to.push_back({"along", node(settings.along->name)});
+            to.push_back({"from", node(settings.along->lower)});
+            to.push_back({"to", node(settings.along->upper)});
+          },
+          [](const OptimumSettings& settings, std::vector<ParameterUse>& all) {
+            if (settings.along) all.push_back({settings.along->name, "which the study goes \"along\""});
+          }};
+}
+
+KeysOf<OptimumSettings> keys() {
+  KeysOf<OptimumSettings> keys;
+  add_design(keys);
+  add_search(keys);
+  add_demands(keys);
+  keys.add(along());
+  keys.check(
+      [](const Reading& reading, OptimumSettings& settings) { check_criterion(reading, settings.problem); });
   return keys;
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace arcslip::optimize {
 namespace {
@@ -25,6 +26,81 @@ bool reports_mean_force(const model::Model& model, const model::NonlinearPart& p
   return element->friction(state) && std::isfinite(state.mean_max);
 }
 
+// Of what the responses of a model have, the quantity of a name.
+class ObservableSearch {
+ public:
+  ObservableSearch(const model::Model& model, double to_unit, const std::string& name)
+      : model_(model), to_unit_(to_unit), name_(name) {}
+
+  // Throws OptionsError with what there is.
+  PeakAmplitude::Observable run() {
+    if (auto found = of_response()) return found;
+    for (std::size_t e = 0; e < model_.elements.size(); ++e)
+      if (auto found = of_element(e)) return found;
+    for (std::size_t k = 0; k < model_.patches.size(); ++k)
+      if (auto found = of_patch(k)) return found;
+    std::string list;
+    for (const std::string& each : known_) list += (list.empty() ? "" : ", ") + each;
+    const std::string likely = scene::nearest(name_, known_);
+    throw OptionsError("no observable \"" + name_ + "\" to limit" +
+                       (likely.empty() ? "." : "; did you mean \"" + likely + "\"?") + " Known: " + list);
+  }
+
+ private:
+  using Number = observables::ElementQuantity::Number;
+
+  PeakAmplitude::Observable of_response() {
+    using observables::ResponseQuantity;
+    for (const ResponseQuantity& each : observables::response_quantities()) {
+      const auto* get = std::get_if<ResponseQuantity::Number>(&each.get);
+      if (!get || each.has || !is_wanted(std::string(each.path))) continue;
+      return [get = *get, unit = each.unit == observables::frequency_unit ? to_unit_ : 1](
+                 const observables::ResponsePoint& point) { return unit * get(point); };
+    }
+    return {};
+  }
+
+  PeakAmplitude::Observable of_element(std::size_t e) {
+    const model::NonlinearPart& element = model_.elements[e];
+    for (const std::string_view path :
+         {"stick_percent", "energy", "equivalent_stiffness", "equivalent_damping", "open_percent",
+          "normal_load_max", "normal_load_min", "mean_force_min", "mean_force_max", "wear_rate"})
+      if (has(element, path) && is_wanted(element.name + "." + std::string(path)))
+        return [e, get = std::get<Number>(observables::element_quantity(path).get)](
+                   const observables::ResponsePoint& point) { return get(point.elements[e]); };
+    return {};
+  }
+
+  PeakAmplitude::Observable of_patch(std::size_t k) {
+    const model::NonlinearPart& first = model_.elements[model_.patches[k].first];
+    for (const observables::ElementQuantity& each : observables::patch_quantities()) {
+      const bool is_total = each.path == "energy" || each.path == "stick_percent";
+      const bool some =
+          is_total || (each.path == "wear_rate" ? has(first, each.path) : has_normal_load(first));
+      if (some && is_wanted(model_.patches[k].name + "." + std::string(each.path)))
+        return [k, get = std::get<Number>(each.get)](const observables::ResponsePoint& point) {
+          return get(point.patches[k]);
+        };
+    }
+    return {};
+  }
+
+  static bool has_normal_load(const model::NonlinearPart& element) { return element.law->has_normal_load(); }
+  bool has(const model::NonlinearPart& element, std::string_view path) const {
+    if (path == "stick_percent" || path == "energy") return element.law->has_contact();
+    if (path == "open_percent" || path.starts_with("normal_load")) return has_normal_load(element);
+    if (path.starts_with("mean_force")) return reports_mean_force(model_, element);
+    return path != "wear_rate" || element.wear_coefficient != 0;
+  }
+
+  bool is_wanted(const std::string& path) { return known_.emplace_back(path) == name_; }
+
+  const model::Model& model_;
+  double to_unit_;
+  const std::string& name_;
+  std::vector<std::string> known_;
+};
+
 }  // namespace
 
 DesignSpace::DesignSpace(const scene::Scene& scene, const OptimumProblem& problem)
@@ -33,50 +109,50 @@ DesignSpace::DesignSpace(const scene::Scene& scene, const OptimumProblem& proble
   if (!(problem.frequency_from > 0 && problem.frequency_from < problem.frequency_to))
     throw OptionsError(continuation::text("the frequency window is [", problem.frequency_from, ", ",
                                           problem.frequency_to, "]: 0 < lower < upper"));
-  auto model = std::make_shared<model::Model>(model::build(scene));
-  for (const DesignVariable& v : problem.over) {
-    const std::string bounds =
-        continuation::text("bounds of \"", v.name, "\" are [", v.lower, ", ", v.upper, "]");
-    if (std::find(names_.begin(), names_.end(), v.name) != names_.end())
-      throw OptionsError("parameter \"" + v.name + "\" is named twice");
-    if (v.name == "frequency") throw OptionsError("the frequency cannot be a design parameter");
-    scene::Scene with = scene;
-    scene::set(with, v.name, scene::value(scene, v.name));  // unknown, or tied
-    if (!(std::isfinite(v.lower) && std::isfinite(v.upper))) throw OptionsError(bounds + ": must be finite");
-    if (v.lower == v.upper)
-      throw OptionsError(bounds + ": equal bounds leave nothing to vary; leave the parameter out");
-    if (!(v.lower < v.upper)) throw OptionsError(bounds + ": the lower must be below the upper");
-    for (const double bound : {v.lower, v.upper}) scene::set(with, v.name, bound);  // may it take them?
-    names_.push_back(v.name);
-    parameters_.push_back(model::parameter_index(*model, v.name));
-    lower_.push_back(v.lower);
-    upper_.push_back(v.upper);
-    scales_.emplace_back(v.lower, v.upper);
-  }
-  model_ = std::move(model);
-  for (const LinearLimit& limit : problem.linear_limits) {
-    std::vector<double> weights(names_.size(), 0.0);
-    for (const auto& [name, weight] : limit.weights) {
-      const auto at = std::find(names_.begin(), names_.end(), name);
-      if (at == names_.end())
-        throw OptionsError("a linear limit names \"" + name +
-                           "\", which is not one of the design parameters: " + names());
-      weights[static_cast<std::size_t>(at - names_.begin())] += weight;
-    }
-    const auto add = [&](double sign, double bound) {
-      if (!std::isfinite(bound)) return;
-      Linear each{weights, sign * bound, bound != 0 ? std::abs(bound) : 1};
-      for (double& w : each.weights) w *= sign;
-      linear_.push_back(std::move(each));
-    };
-    add(1, limit.at_most);
-    add(-1, limit.at_least);
-  }
+  model_ = std::make_shared<model::Model>(model::build(scene));
+  for (const DesignVariable& v : problem.over) add(v, scene);
+  for (const LinearLimit& limit : problem.linear_limits) add(limit);
   for (const ObservableLimit& limit : problem.limits) {
     static_cast<void>(observable(limit.observable));
     if (std::isnan(limit.at_least) || std::isnan(limit.at_most) || !(limit.at_least < limit.at_most))
       throw OptionsError(continuation::text("limit on \"", limit.observable, "\" is [", limit.at_least, ", ",
                                             limit.at_most, "]: the lower must be below the upper"));
+  }
+}
+
+void DesignSpace::add(const DesignVariable& v, const scene::Scene& scene) {
+  const std::string bounds =
+      continuation::text("bounds of \"", v.name, "\" are [", v.lower, ", ", v.upper, "]");
+  if (std::find(names_.begin(), names_.end(), v.name) != names_.end())
+    throw OptionsError("parameter \"" + v.name + "\" is named twice");
+  if (v.name == "frequency") throw OptionsError("the frequency cannot be a design parameter");
+  scene::Scene with = scene;
+  scene::set(with, v.name, scene::value(scene, v.name));  // unknown, or tied
+  if (!(std::isfinite(v.lower) && std::isfinite(v.upper))) throw OptionsError(bounds + ": must be finite");
+  if (v.lower == v.upper)
+    throw OptionsError(bounds + ": equal bounds leave nothing to vary; leave the parameter out");
+  if (!(v.lower < v.upper)) throw OptionsError(bounds + ": the lower must be below the upper");
+  for (const double bound : {v.lower, v.upper}) scene::set(with, v.name, bound);  // may it take them?
+  names_.push_back(v.name);
+  parameters_.push_back(model::parameter_index(*model_, v.name));
+  lower_.push_back(v.lower);
+  upper_.push_back(v.upper);
+  scales_.emplace_back(v.lower, v.upper);
+}
+
+void DesignSpace::add(const LinearLimit& limit) {
+  std::vector<double> weights(names_.size(), 0.0);
+  for (const auto& [name, weight] : limit.weights) {
+    const auto at = std::find(names_.begin(), names_.end(), name);
+    if (at == names_.end())
+      throw OptionsError("a linear limit names \"" + name +
+                         "\", which is not one of the design parameters: " + names());
+    weights[static_cast<std::size_t>(at - names_.begin())] += weight;
+  }
+  for (const auto& [sign, bound] : {std::pair(1, limit.at_most), std::pair(-1, limit.at_least)}) {
+    if (!std::isfinite(bound)) continue;
+    Linear& each = linear_.emplace_back(Linear{weights, sign * bound, bound != 0 ? std::abs(bound) : 1});
+    for (double& w : each.weights) w *= sign;
   }
 }
 
@@ -149,48 +225,7 @@ double DesignSpace::slope(std::size_t k, double value) const {
 }
 
 PeakAmplitude::Observable DesignSpace::observable(const std::string& name) const {
-  using observables::ElementQuantity, observables::ResponseQuantity;
-  std::vector<std::string> known;
-  const auto is_wanted = [&](const std::string& path) { return known.emplace_back(path) == name; };
-  for (const ResponseQuantity& each : observables::response_quantities()) {
-    const auto* get = std::get_if<ResponseQuantity::Number>(&each.get);
-    if (!get || each.has || !is_wanted(std::string(each.path))) continue;
-    return [get = *get, unit = each.unit == observables::frequency_unit ? to_unit_ : 1](
-               const observables::ResponsePoint& point) { return unit * get(point); };
-  }
-  for (std::size_t e = 0; e < model_->elements.size(); ++e)
-    for (const std::string_view path :
-         {"stick_percent", "energy", "equivalent_stiffness", "equivalent_damping", "open_percent",
-          "normal_load_max", "normal_load_min", "mean_force_min", "mean_force_max", "wear_rate"}) {
-      const auto& element = model_->elements[e];
-      const bool is_of_friction = path == "stick_percent" || path == "energy";
-      const bool is_of_load = path == "open_percent" || path.starts_with("normal_load");
-      if ((is_of_friction && !element.law->has_contact()) ||
-          (is_of_load && !element.law->has_normal_load()) ||
-          (path.starts_with("mean_force") && !reports_mean_force(*model_, element)) ||
-          (path == "wear_rate" && element.wear_coefficient == 0) ||
-          !is_wanted(element.name + "." + std::string(path)))
-        continue;
-      return [e, get = std::get<ElementQuantity::Number>(observables::element_quantity(path).get)](
-                 const observables::ResponsePoint& point) { return get(point.elements[e]); };
-    }
-  for (std::size_t k = 0; k < model_->patches.size(); ++k)
-    for (const ElementQuantity& each : observables::patch_quantities()) {
-      const auto& element = model_->elements[model_->patches[k].first];
-      if ((each.path == "wear_rate" && element.wear_coefficient == 0) ||
-          (each.path != "energy" && each.path != "stick_percent" && each.path != "wear_rate" &&
-           !element.law->has_normal_load()) ||
-          !is_wanted(model_->patches[k].name + "." + std::string(each.path)))
-        continue;
-      return [k, get = std::get<ElementQuantity::Number>(each.get)](const observables::ResponsePoint& point) {
-        return get(point.patches[k]);
-      };
-    }
-  std::string list;
-  for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
-  const std::string near = scene::nearest(name, known);
-  throw OptionsError("no observable \"" + name + "\" to limit" +
-                     (near.empty() ? "." : "; did you mean \"" + near + "\"?") + " Known: " + list);
+  return ObservableSearch(*model_, to_unit_, name).run();
 }
 
 double DesignSpace::value(const Linear& limit, std::span<const double> design) const {

@@ -65,6 +65,8 @@ class DesignSpace {
     std::vector<double> weights;  // of the parameters
     double bound, scale;          // sum <= bound
   };
+  void add(const DesignVariable& v, const scene::Scene& scene);
+  void add(const LinearLimit& limit);
   double value(const Linear& limit, std::span<const double> design) const;
 
   std::shared_ptr<const model::Model> model_;
