@@ -3,6 +3,7 @@
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -73,6 +74,33 @@ bool SharedFactors::factorize(const Jacobian& J, const Borders& borders) {
     now_ = made ? std::move(made) : suitable_solver(J);
   }
   return now_->factorize(J, borders);
+}
+
+BorderedTangent::BorderedTangent(Vector scales)
+    : scales_(std::move(scales)),
+      c_(scales_.size()),
+      t_(scales_.size()),
+      border_(static_cast<int>(scales_.size()) - 1, 1) {
+  for (Eigen::Index i = 0; i < c_.size(); ++i)
+    c_[i] = (1 + 0.3 * std::sin(7.0 * static_cast<double>(i))) / scales_[i];
+}
+
+bool BorderedTangent::compute(SharedFactors& factors, const Jacobian& J, const Vector& F_pa) {
+  const Eigen::Index n = t_.size() - 1;
+  border_.columns.col(0) = F_pa;
+  border_.rows.col(0) = c_.head(n);
+  border_.corner(0, 0) = c_[n];
+  if (!factors.factorize(J, border_)) return false;
+  t_.setZero();
+  t_[n] = 1;
+  factors.now()->solve(t_);
+  return t_.allFinite();
+}
+
+void BorderedTangent::take_border() {
+  const double length = t_.cwiseQuotient(scales_).squaredNorm();
+  if (length > 0 && std::isfinite(length))
+    c_ = t_.cwiseQuotient(scales_).cwiseQuotient(scales_) / std::sqrt(length);
 }
 
 namespace {

@@ -70,6 +70,23 @@ class SharedFactors {
   std::shared_ptr<LinearSolver> now_, spare_;
 };
 
+/// The tangent t of a branch, B t = e_{n+1} with B = [A; c^T].
+class BorderedTangent {
+ public:
+  /// c: a generic row until there is a tangent, orthogonal to it by no symmetry. scales: of x, n + 1.
+  explicit BorderedTangent(Vector scales);
+
+  /// False: B is singular.
+  bool compute(SharedFactors& factors, const Jacobian& J, const Vector& F_pa);
+  /// Makes this tangent the next row, the best choice for the conditioning of B.
+  void take_border();
+  const Vector& operator*() const { return t_; }
+
+ private:
+  Vector scales_, c_, t_;
+  Borders border_;
+};
+
 /// A problem in the unknowns (x, further) with the parameters of the inner problem. scales: of the further
 /// unknowns. `inner` and everything the functions refer to must outlive it.
 std::shared_ptr<const Problem> augmented(std::shared_ptr<const InnerProblem> inner, Vector scales,

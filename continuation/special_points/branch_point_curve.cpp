@@ -1,8 +1,6 @@
 #include <arcslip/continuation/special_points/branch_point_curve.hpp>
 
-#include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/continuation/special_points/augmented_problem.hpp>
-#include <arcslip/continuation/special_points/neighbours.hpp>
+#include <arcslip/continuation/special_points/augmented_evaluator.hpp>
 
 #include <cmath>
 #include <exception>
@@ -28,28 +26,25 @@ Vector generic_vector(Eigen::Index size, double phase) {
   return c.normalized();
 }
 
-class BranchPointEvaluator final : public Evaluator, public Operator {
+class BranchPointEvaluator final : public AugmentedEvaluator, public Operator {
  public:
   explicit BranchPointEvaluator(std::shared_ptr<const BranchPointDefinition> definition)
-      : definition_(std::move(definition)),
-        n_(definition_->inner.size()),
-        here_(definition_->inner),
-        nearby_(definition_->inner),
-        factors_(definition_->inner),
-        scale_(definition_->inner.scales()),
+      : AugmentedEvaluator({definition, &definition->inner}, 2),
+        definition_(std::move(definition)),
+        factors_(*inner_),
+        scale_(inner_->scales()),
         border_(static_cast<int>(n_), 2),
         C_(n_ + 1, 2),
         V_(n_ + 1, 2),
         trial_V_(n_ + 1, 2),
         G_(n_ + 1, 2),
         g_(2),
-        R_(n_ + 2),
         w_(n_ + 2),
         b_(generic_vector(n_, 1.0)),
-        dp_(definition_->inner.problem->parameters().size()),
+        dp_(inner_->problem->parameters().size()),
         dg_dp_(dp_.size(), 2),
-        work_(n_ + 2),
-        jacobian_(static_cast<const Operator*>(this)) {
+        work_(n_ + 2) {
+    jacobian_ = static_cast<const Operator*>(this);
     C_ << generic_vector(n_ + 1, 0.5).cwiseQuotient(scale_),
         generic_vector(n_ + 1, 2.0).cwiseQuotient(scale_);
   }
@@ -79,25 +74,6 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
     if (transposed_) transposed_ = gradients();
     return R_.allFinite() && (!transposed_ || G_.allFinite()) ? Evaluated::ok : Evaluated::failed;
   }
-
-  const Vector& residual() const override { return R_; }
-  const Jacobian& jacobian() const override { return jacobian_; }
-
-  void parameter_derivative(int k, Out dR) const override {
-    if (k == definition_->inner.along) {
-      dR.setZero();
-      return;
-    }
-    here_.at().parameter_derivative(k, dR.head(n_));
-    if (transposed_ && second_given_)
-      dR.tail(2) = dg_dp_.row(k).transpose();
-    else if (nearby_.over(here_, k))
-      change_of_g(*factors_.now(), dR.tail(2));
-    else
-      dR.tail(2).setConstant(std::nan(""));
-  }
-
-  std::uint64_t piece() const override { return here_.at().piece(); }
 
   // M at the last point.
   const std::shared_ptr<LinearSolver>& factors() const { return factors_.now(); }
@@ -130,6 +106,15 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
   }
 
  private:
+  void further_derivative(int k, Out dG) const override {
+    if (transposed_ && second_given_)
+      dG = dg_dp_.row(k).transpose();
+    else if (nearby_.over(here_, k))
+      change_of_g(*factors_.now(), dG);
+    else
+      dG.setConstant(std::nan(""));
+  }
+
   void take_border() {
     border_.columns.col(1) = b_;
     border_.rows = C_.topRows(n_);
@@ -202,18 +187,14 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
   }
 
   std::shared_ptr<const BranchPointDefinition> definition_;
-  Eigen::Index n_;
-  Site here_;
-  mutable Neighbours nearby_;
   SharedFactors factors_;
   Vector scale_;
   Borders border_;              // of the last Jacobian
   Matrix C_, V_, trial_V_, G_;  // C: of the next Jacobian
-  Vector g_, R_, w_, b_, dp_;
+  Vector g_, w_, b_, dp_;
   Matrix dg_dp_;
   mutable Vector work_;
   bool adapted_ = false, has_left_ = false, transposed_ = false, second_given_ = false;
-  Jacobian jacobian_;
 };
 
 // Of the Jacobian with borders P, R, D:
@@ -225,57 +206,13 @@ class BranchPointEvaluator final : public Evaluator, public Operator {
 // Where M (X, s) = (Y, 0) for Y = r_1, b_0, P, dx = X_1 + V z - X_0 db - X_P dq solves the first rows if
 // s_1 + g . z - s_0 db - s_P dq = 0. With the other rows there remain 3 + m equations in z, db and dq, whose
 // matrix S has det [...] = -det M det S.
-class BranchPointSolver final : public LinearSolver {
+class BranchPointSolver final : public AugmentedSolver<BranchPointEvaluator> {
  public:
-  const char* name() const override { return "block elimination in the branch's factors"; }
-
-  bool factorize(const Jacobian& jacobian, const Borders& borders) override {
-    const auto* const* op = std::get_if<const Operator*>(&jacobian);
-    if (!op) return false;
-    at_ = dynamic_cast<const BranchPointEvaluator*>(*op);
-    if (!at_) return false;
-    M_ = at_->factors();
-    V_ = at_->right();
-    const Eigen::Index n = V_.rows() - 1, m = borders.width();
-    rows_ = borders.rows;
-    y_.resize(n + 2);
-    dg_.resize(2);
-    rhs_.resize(3 + m);
-    X_.resize(n + 1, 1 + m);
-    S_.resize(3 + m, 3 + m);
-    S_.row(0).head(2) = at_->g().transpose();
-    S_.bottomLeftCorner(m, 2).noalias() = rows_.topRows(n + 1).transpose() * V_;
-    for (int j = 0; j < 2; ++j) {
-      at_->derivative(V_.col(j), *M_, dg_);
-      S_.col(j).segment(1, 2) = dg_;
-    }
-    for (Eigen::Index j = 0; j <= m; ++j) {
-      y_.head(n) = j == 0 ? at_->unfolding() : borders.columns.col(j - 1).head(n);
-      y_.tail(2).setZero();
-      M_->solve(y_);
-      X_.col(j) = y_.head(n + 1);
-      at_->derivative(X_.col(j), *M_, dg_);
-      S_(0, 2 + j) = -y_[n + 1];
-      S_.col(2 + j).segment(1, 2) = -dg_;
-      if (j > 0) S_.col(2 + j).segment(1, 2) += borders.columns.col(j - 1).tail(2);
-      if (m == 0) continue;  // no border has a row
-      S_.col(2 + j).tail(m) = -rows_.topRows(n + 1).transpose() * X_.col(j);
-      if (j == 0)
-        S_.col(2).tail(m) += rows_.row(n + 1).transpose();
-      else
-        S_.col(2 + j).tail(m) += borders.corner.col(j - 1);
-    }
-    if (!S_.allFinite()) return false;
-    small_.factorize(S_);
-    determinant_ = small_.determinant();
-    return determinant_ != 0 && std::isfinite(determinant_);
-  }
-
   void solve(Out x) const override {
     const Eigen::Index n = V_.rows() - 1, m = rows_.cols();
     y_ << x.head(n), 0, 0;
-    M_->solve(y_);
-    at_->derivative(y_.head(n + 1), *M_, dg_);
+    B_->solve(y_);
+    at_->derivative(y_.head(n + 1), *B_, dg_);
     rhs_[0] = -y_[n + 1];
     rhs_.segment(1, 2) = x.segment(n, 2) - dg_;
     rhs_.tail(m) = x.tail(m);
@@ -289,18 +226,45 @@ class BranchPointSolver final : public LinearSolver {
   }
 
   std::optional<int> determinant_sign() const override {
-    const auto sign = M_->determinant_sign();
-    if (!sign) return sign;
-    return determinant_ > 0 ? -*sign : *sign;
+    const auto sign = AugmentedSolver::determinant_sign();
+    return sign ? std::optional(-*sign) : sign;
   }
 
  private:
-  const BranchPointEvaluator* at_ = nullptr;
-  std::shared_ptr<LinearSolver> M_;
-  Matrix V_, rows_, X_, S_;
-  LU<double> small_;
-  double determinant_ = 1;
-  mutable Vector y_, dg_, rhs_, small_x_;
+  void eliminate(const Borders& borders) override {
+    V_ = at_->right();
+    const Eigen::Index n = V_.rows() - 1, m = borders.width();
+    y_.resize(n + 2);
+    dg_.resize(2);
+    rhs_.resize(3 + m);
+    X_.resize(n + 1, 1 + m);
+    S_.resize(3 + m, 3 + m);
+    S_.row(0).head(2) = at_->g().transpose();
+    S_.bottomLeftCorner(m, 2).noalias() = rows_.topRows(n + 1).transpose() * V_;
+    for (int j = 0; j < 2; ++j) {
+      at_->derivative(V_.col(j), *B_, dg_);
+      S_.col(j).segment(1, 2) = dg_;
+    }
+    for (Eigen::Index j = 0; j <= m; ++j) {
+      y_.head(n) = j == 0 ? at_->unfolding() : borders.columns.col(j - 1).head(n);
+      y_.tail(2).setZero();
+      B_->solve(y_);
+      X_.col(j) = y_.head(n + 1);
+      at_->derivative(X_.col(j), *B_, dg_);
+      S_(0, 2 + j) = -y_[n + 1];
+      S_.col(2 + j).segment(1, 2) = -dg_;
+      if (j > 0) S_.col(2 + j).segment(1, 2) += borders.columns.col(j - 1).tail(2);
+      if (m == 0) continue;  // no border has a row
+      S_.col(2 + j).tail(m) = -rows_.topRows(n + 1).transpose() * X_.col(j);
+      if (j == 0)
+        S_.col(2).tail(m) += rows_.row(n + 1).transpose();
+      else
+        S_.col(2 + j).tail(m) += borders.corner.col(j - 1);
+    }
+  }
+
+  Matrix V_, X_;
+  mutable Vector dg_;
 };
 
 }  // namespace

@@ -1,9 +1,7 @@
 // Curves of folds: F = 0, g = 0 with the bordered J (stationary.hpp).
 
-#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>
-#include <arcslip/continuation/special_points/augmented_problem.hpp>
-#include <arcslip/continuation/special_points/neighbours.hpp>
+#include <arcslip/continuation/special_points/augmented_evaluator.hpp>
 #include <arcslip/continuation/special_points/on_curve.hpp>
 #include <arcslip/continuation/special_points/stationary.hpp>
 
@@ -25,26 +23,22 @@ double generic_entry(Eigen::Index i) {
   return 1 + 0.3 * std::sin(7.0 * static_cast<double>(i));
 }
 
-class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfStationaryPoints {
+class FoldEvaluator final : public AugmentedEvaluator, public Operator, public OnCurveOfStationaryPoints {
  public:
   explicit FoldEvaluator(std::shared_ptr<const InnerProblem> inner)
-      : inner_(std::move(inner)),
-        n_(inner_->size()),
-        here_(*inner_),
-        nearby_(*inner_),
+      : AugmentedEvaluator(std::move(inner), 1),
         factors_(*inner_),
         scale_(inner_->scales()),
         borders_(static_cast<int>(n_), 1),
         b_(n_),
         c_(n_),
-        R_(n_ + 1),
         v_(Vector::Zero(n_ + 1)),
         z_(n_ + 1),
         g_x_(n_ + 1),
         g_p_(inner_->problem->parameters().size()),
         Jd_(n_),
-        work_(n_ + 1),
-        jacobian_(static_cast<const Operator*>(this)) {
+        work_(n_ + 1) {
+    jacobian_ = static_cast<const Operator*>(this);
     // Generic borders until there are null vectors, orthogonal to them by no symmetry.
     for (Eigen::Index i = 0; i < n_; ++i) {
       b_[i] = generic_entry(i);
@@ -71,22 +65,6 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
     return Evaluated::ok;  // without a gradient, at the end of a piece, the linear solver fails
   }
 
-  const Vector& residual() const override { return R_; }
-  const Jacobian& jacobian() const override { return jacobian_; }
-
-  void parameter_derivative(int k, Out dR) const override {
-    if (k == inner_->along) {
-      dR.setZero();
-      return;
-    }
-    here_.at().parameter_derivative(k, dR.head(n_));
-    if (!transposed_)
-      dR[n_] = nearby_.over(here_, k) ? change_of_g(*factors_.now()) : std::nan("");
-    else
-      dR[n_] = given_ ? g_p_[k] : -nearby_.parameter_derivative(z_.head(n_), k);
-  }
-
-  std::uint64_t piece() const override { return here_.at().piece(); }
   ByDifferences by_differences() const override { return {!given_, !given_}; }
 
   // M at the last point, and what is known there.
@@ -128,6 +106,13 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
   }
 
  private:
+  void further_derivative(int k, Out dG) const override {
+    if (!transposed_)
+      dG[0] = nearby_.over(here_, k) ? change_of_g(*factors_.now()) : std::nan("");
+    else
+      dG[0] = given_ ? g_p_[k] : -nearby_.parameter_derivative(z_.head(n_), k);
+  }
+
   // (v, g) with M = [J b; c^T 0]: M (v, g) = e_{n+1}.
   bool right_vector() {
     borders_.columns.col(0) = b_;
@@ -213,39 +198,42 @@ class FoldEvaluator final : public Evaluator, public Operator, public OnCurveOfS
     y[n_] = transposed_ ? g_x_.dot(d) : along(d, *factors_.now());
   }
 
-  std::shared_ptr<const InnerProblem> inner_;
-  Eigen::Index n_;
-  Site here_;
-  mutable Neighbours nearby_;
   SharedFactors factors_;
   Vector scale_;
   Borders borders_;
-  Vector b_, c_, R_, v_, z_, g_x_, g_p_, Jd_;
+  Vector b_, c_, v_, z_, g_x_, g_p_, Jd_;
   mutable Vector work_;
   double g_ = 0, orientation_ = 1, size_of_b_ = 0;
   bool sign_known_ = true;
   std::unique_ptr<LinearSolver> signed_;
   bool first_ = true, transposed_ = false, given_ = false;
-  Jacobian jacobian_;
 };
 
 // x = M^-1 (y, 0) + kappa (v, 0) - (M^-1 (F_pa, 0) - e) dp_a - M^-1 (C, 0) mu, of which the entry next to v
 // has to vanish, leaves two equations more than there are borders.
-class FoldSolver final : public LinearSolver {
+class FoldSolver final : public AugmentedSolver<FoldEvaluator> {
  public:
-  const char* name() const override { return "block elimination in the branch's factors"; }
+  void solve(Out x) const override {
+    const Eigen::Index n = directions_.rows() - 1, m = rows_.cols();
+    y_ << x.head(n), 0;
+    B_->solve(y_);
+    rhs_[0] = -y_[n];
+    y_[n] = 0;
+    rhs_[1] = x[n] - (y_.allFinite() ? change(y_) : std::nan(""));
+    rhs_.tail(m) = x.tail(m);
+    rhs_.tail(m).noalias() -= rows_.transpose() * y_;
+    small_.solve(rhs_, small_x_);
+    x.head(n + 1) = y_;
+    x.head(n + 1).noalias() += directions_ * small_x_;
+    x.tail(m) = small_x_.tail(m);
+  }
 
-  bool factorize(const Jacobian& jacobian, const Borders& borders) override {
-    const auto* const* op = std::get_if<const Operator*>(&jacobian);
-    if (!op) return false;
-    at_ = dynamic_cast<const FoldEvaluator*>(*op);
-    if (!at_) return false;
-    M_ = at_->factors();
+ private:
+  void eliminate(const Borders& borders) override {
     g_x_ = at_->gradient_of_g();
     has_gradient_ = at_->has_gradient();
     orientation_ = at_->orientation();
     const Eigen::Index n = g_x_.size() - 1, m = borders.width();
-    rows_ = borders.rows;
     directions_.resize(n + 1, 2 + m);
     S_.resize(2 + m, 2 + m);
     y_.resize(n + 1);
@@ -259,7 +247,7 @@ class FoldSolver final : public LinearSolver {
       else
         y_.head(n) = borders.columns.col(j - 1).head(n);
       y_[n] = 0;
-      M_->solve(y_);
+      B_->solve(y_);
       S_(0, 1 + j) = -y_[n];
       directions_.col(1 + j) = -y_;
       directions_(n, 1 + j) = j == 0 ? 1 : 0;
@@ -269,48 +257,17 @@ class FoldSolver final : public LinearSolver {
       S_.col(j).tail(m).noalias() = rows_.transpose() * directions_.col(j);
     }
     S_.bottomRightCorner(m, m) += borders.corner;
-    if (!S_.allFinite()) return false;
-    small_.factorize(S_);
-    determinant_ = small_.determinant();
-    return determinant_ != 0 && std::isfinite(determinant_);
   }
 
-  void solve(Out x) const override {
-    const Eigen::Index n = directions_.rows() - 1, m = rows_.cols();
-    y_ << x.head(n), 0;
-    M_->solve(y_);
-    rhs_[0] = -y_[n];
-    y_[n] = 0;
-    rhs_[1] = x[n] - (y_.allFinite() ? change(y_) : std::nan(""));
-    rhs_.tail(m) = x.tail(m);
-    rhs_.tail(m).noalias() -= rows_.transpose() * y_;
-    small_.solve(rhs_, small_x_);
-    x.head(n + 1) = y_;
-    x.head(n + 1).noalias() += directions_ * small_x_;
-    x.tail(m) = small_x_.tail(m);
-  }
-
-  std::optional<int> determinant_sign() const override {
-    const auto sign = M_->determinant_sign();
-    if (!sign) return sign;
-    return determinant_ > 0 ? *sign : -*sign;
-  }
-
- private:
   double change(In d) const {
     if (has_gradient_) return g_x_.dot(d);
-    return d.isZero(0) ? 0 : at_->along(d, *M_);
+    return d.isZero(0) ? 0 : at_->along(d, *B_);
   }
 
-  const FoldEvaluator* at_ = nullptr;
-  std::shared_ptr<LinearSolver> M_;
   Vector g_x_;
   bool has_gradient_ = false;
   double orientation_ = 1;
-  Matrix rows_, directions_, S_;
-  LU<double> small_;
-  double determinant_ = 1;
-  mutable Vector y_, rhs_, small_x_;
+  Matrix directions_;
 };
 
 }  // namespace

@@ -2,8 +2,7 @@
 
 #include <arcslip/continuation/events/hopf.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/continuation/special_points/augmented_problem.hpp>
-#include <arcslip/continuation/special_points/neighbours.hpp>
+#include <arcslip/continuation/special_points/augmented_evaluator.hpp>
 
 #include <Eigen/LU>
 
@@ -71,21 +70,18 @@ class Pair {
   Eigenvalues eigenvalues_;
 };
 
-class HopfEvaluator final : public Evaluator {
+class HopfEvaluator final : public AugmentedEvaluator {
  public:
   explicit HopfEvaluator(std::shared_ptr<const InnerProblem> inner)
-      : inner_(std::move(inner)),
-        n_(inner_->size()),
+      : AugmentedEvaluator(std::move(inner), 2),
         parameters_(static_cast<Eigen::Index>(inner_->problem->parameters().size())),
-        here_(*inner_),
-        nearby_(*inner_),
-        R_(n_ + 2),
         v_(Vector::Zero(n_ + 1)),
         dx_(n_ + 1),
         dp_(parameters_),
         by_x_(2, n_ + 1),
-        by_p_(2, parameters_),
-        jacobian_(Matrix::Zero(n_ + 2, n_ + 2)) {}
+        by_p_(2, parameters_) {
+    jacobian_ = Matrix::Zero(n_ + 2, n_ + 2);
+  }
 
   Evaluated move_to(In x, In p, Needs needs) override {
     const Evaluated result = here_.move_to(x.head(n_ + 1), p);
@@ -103,22 +99,11 @@ class HopfEvaluator final : public Evaluator {
     return J.allFinite() ? Evaluated::ok : Evaluated::failed;
   }
 
-  const Vector& residual() const override { return R_; }
-  const Jacobian& jacobian() const override { return jacobian_; }
-
-  void parameter_derivative(int k, Out dR) const override {
-    if (k == inner_->along) {
-      dR.setZero();
-      return;
-    }
-    here_.at().parameter_derivative(k, dR.head(n_));
-    dR.tail(2) = by_p_.col(k);
-  }
-
-  std::uint64_t piece() const override { return here_.at().piece(); }
   ByDifferences by_differences() const override { return {!given_, !given_}; }
 
  private:
+  void further_derivative(int k, Out dG) const override { dG = by_p_.col(k); }
+
   // The derivatives of sigma and pi with respect to x and p: sums of those of w_j . J v_i, weighted by I
   // and adj(R).
   bool differentiate() {
@@ -148,16 +133,12 @@ class HopfEvaluator final : public Evaluator {
     return true;
   }
 
-  std::shared_ptr<const InnerProblem> inner_;
-  Eigen::Index n_, parameters_;
-  Site here_;
-  Neighbours nearby_;
-  Vector R_, v_, dx_, dp_;
+  Eigen::Index parameters_;
+  Vector v_, dx_, dp_;
   Matrix by_x_, by_p_;  // derivatives of sigma and pi
   Matrix J_;
   Pair pair_;
   bool given_ = false;  // second derivatives, by the problem
-  Jacobian jacobian_;
 };
 
 }  // namespace

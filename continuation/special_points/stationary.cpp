@@ -1,8 +1,6 @@
 #include <arcslip/continuation/special_points/stationary.hpp>
 
-#include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/continuation/special_points/augmented_problem.hpp>
-#include <arcslip/continuation/special_points/neighbours.hpp>
+#include <arcslip/continuation/special_points/augmented_evaluator.hpp>
 #include <arcslip/continuation/special_points/on_curve.hpp>
 
 #include <cmath>
@@ -28,31 +26,24 @@ struct StationaryDefinition {
   }
 };
 
-class StationaryEvaluator final : public Evaluator, public Operator, public OnCurveOfStationaryPoints {
+class StationaryEvaluator final : public AugmentedEvaluator,
+                                  public Operator,
+                                  public OnCurveOfStationaryPoints {
  public:
   explicit StationaryEvaluator(std::shared_ptr<const StationaryDefinition> definition)
-      : definition_(std::move(definition)),
-        n_(definition_->inner.size()),
-        here_(definition_->inner),
-        nearby_(definition_->inner),
-        factors_(definition_->inner),
-        scale_(definition_->inner.scales()),
-        border_(static_cast<int>(n_), 1),
-        c_(n_ + 1),
+      : AugmentedEvaluator({definition, &definition->inner}, 1),
+        definition_(std::move(definition)),
+        factors_(*inner_),
+        tangent_(inner_->scales()),
         q_x_(n_ + 1),
-        R_(n_ + 1),
-        t_(n_ + 1),
         z_(n_ + 1),
         G_x_(n_ + 1),
-        G_p_(definition_->inner.problem->parameters().size()),
+        G_p_(inner_->problem->parameters().size()),
         r_(Vector::Zero(G_p_.size())),
         dp_(G_p_.size()),
         work_(n_ + 1),
-        change_(n_ + 1),
-        jacobian_(static_cast<const Operator*>(this)) {
-    // A generic border row until there is a tangent, orthogonal to it by no symmetry.
-    for (Eigen::Index i = 0; i <= n_; ++i)
-      c_[i] = (1 + 0.3 * std::sin(7.0 * static_cast<double>(i))) / scale_[i];
+        change_(n_ + 1) {
+    jacobian_ = static_cast<const Operator*>(this);
   }
 
   Evaluated move_to(In x, In p, Needs needs) override {
@@ -62,35 +53,19 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
     if (!q_x_.allFinite() || !tangent()) return Evaluated::failed;
     if (first_) {
       first_ = false;
-      take_border();
+      tangent_.take_border();
       if (!tangent()) return Evaluated::failed;
     }
     R_.head(n_) = here_.at().residual();
-    R_[n_] = q_x_.dot(t_);
+    R_[n_] = q_x_.dot(t());
     if (needs == Needs::residual) return std::isfinite(R_[n_]) ? Evaluated::ok : Evaluated::failed;
     z_ = q_x_;
     transposed_ = factors_.now()->solve_transposed(z_);
-    take_border();
+    tangent_.take_border();
     if (transposed_) transposed_ = gradient();
     return Evaluated::ok;  // without a gradient, at the end of a piece, the linear solver fails
   }
 
-  const Vector& residual() const override { return R_; }
-  const Jacobian& jacobian() const override { return jacobian_; }
-
-  void parameter_derivative(int k, Out dR) const override {
-    if (k == definition_->inner.along) {
-      dR.setZero();
-      return;
-    }
-    here_.at().parameter_derivative(k, dR.head(n_));
-    if (!transposed_)
-      dR[n_] = nearby_.over(here_, k) ? change_of_G(*factors_.now()) : std::nan("");
-    else
-      dR[n_] = by_symmetry(k);
-  }
-
-  std::uint64_t piece() const override { return here_.at().piece(); }
   ByDifferences by_differences() const override {
     const bool differences = !(F_given_ && q_given_);
     return {differences, differences};
@@ -98,7 +73,7 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
 
   // B at the last point.
   const std::shared_ptr<LinearSolver>& factors() const { return factors_.now(); }
-  const Vector& tangent_of_branch() const { return t_; }
+  const Vector& tangent_of_branch() const { return t(); }
   bool has_gradient() const { return transposed_; }
   const Vector& gradient_of_G() const { return G_x_; }
 
@@ -108,36 +83,31 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
   } catch (const std::exception&) {
     return std::nan("");
   }
-  double cusp_function(In) const override { return transposed_ ? G_x_.dot(t_) : along(t_, *factors_.now()); }
-  double left_times_right() const override { return transposed_ ? z_.head(n_).dot(t_.head(n_)) : 1; }
+  double cusp_function(In) const override {
+    return transposed_ ? G_x_.dot(t()) : along(t(), *factors_.now());
+  }
+  double left_times_right() const override { return transposed_ ? z_.head(n_).dot(t().head(n_)) : 1; }
 
  private:
-  // t at the point of here_.
-  bool tangent() {
-    border_.columns.col(0) = here_.F_pa();
-    border_.rows.col(0) = c_.head(n_);
-    border_.corner(0, 0) = c_[n_];
-    if (!factors_.factorize(here_.at().jacobian(), border_)) return false;
-    t_.setZero();
-    t_[n_] = 1;
-    factors_.now()->solve(t_);
-    return t_.allFinite();
-  }
+  const Vector& t() const { return *tangent_; }
 
-  // The next border row is this tangent, the best choice for the conditioning of B.
-  void take_border() {
-    const double length = t_.cwiseQuotient(scale_).squaredNorm();
-    if (length > 0 && std::isfinite(length))
-      c_ = t_.cwiseQuotient(scale_).cwiseQuotient(scale_) / std::sqrt(length);
+  // At the point of here_.
+  bool tangent() { return tangent_.compute(factors_, here_.at().jacobian(), here_.F_pa()); }
+
+  void further_derivative(int k, Out dG) const override {
+    if (!transposed_)
+      dG[0] = nearby_.over(here_, k) ? change_of_G(*factors_.now()) : std::nan("");
+    else
+      dG[0] = by_symmetry(k);
   }
 
   // G_x = d(dq/dx) . t - w . dA t, by the symmetry of second derivatives: along t. False: no transposed
   // products.
   bool gradient() {
     const auto w = z_.head(n_);
-    F_given_ = here_.second_derivative(w, t_, G_x_, G_p_);
+    F_given_ = here_.second_derivative(w, t(), G_x_, G_p_);
     q_given_ = static_cast<bool>(definition_->quantity.second_derivative);
-    if (!(F_given_ && q_given_) && !nearby_.along(here_, t_)) {
+    if (!(F_given_ && q_given_) && !nearby_.along(here_, t())) {
       G_x_.setConstant(std::nan(""));
       return true;
     }
@@ -145,10 +115,10 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
     G_x_ = -G_x_;
     G_p_ = -G_p_;
     if (q_given_) {
-      r_[definition_->inner.along] = t_[n_];
-      definition_->quantity.second_derivative(here_.at(), here_.u(), here_.p(), t_.head(n_), r_,
+      r_[inner_->along] = t()[n_];
+      definition_->quantity.second_derivative(here_.at(), here_.u(), here_.p(), t().head(n_), r_,
                                               work_.head(n_), dp_);
-      work_[n_] = dp_[definition_->inner.along];
+      work_[n_] = dp_[inner_->along];
       G_x_ += work_;
     } else {
       nearby_.sum([&](const Site& place, double weight) {
@@ -171,13 +141,13 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
 
   // d(dq/dx) . t - dq/dx . B^-1 (dA t, 0), at the neighbouring points.
   double change_of_G(const LinearSolver& B) const {
-    nearby_.derivative(t_, work_.head(n_));
+    nearby_.derivative(t(), work_.head(n_));
     work_[n_] = 0;
     B.solve(work_);
     double result = -q_x_.dot(work_);
     nearby_.sum([&](const Site& place, double weight) {
       definition_->gradient(place, change_);
-      result += weight * change_.dot(t_);
+      result += weight * change_.dot(t());
     });
     return result;
   }
@@ -188,55 +158,17 @@ class StationaryEvaluator final : public Evaluator, public Operator, public OnCu
   }
 
   std::shared_ptr<const StationaryDefinition> definition_;
-  Eigen::Index n_;
-  Site here_;
-  mutable Neighbours nearby_;
   SharedFactors factors_;
-  Vector scale_;
-  Borders border_;
-  Vector c_, q_x_, R_, t_, z_, G_x_, G_p_, r_, dp_;
+  BorderedTangent tangent_;
+  Vector q_x_, z_, G_x_, G_p_, r_, dp_;
   mutable Vector work_, change_;
   bool first_ = true, transposed_ = false, F_given_ = false, q_given_ = false;
-  Jacobian jacobian_;
 };
 
 // Solver of [A F_p; G_x G_p; r_x r_p]: x = B^-1 (y, zeta) leaves as many equations as there are entries in
 // zeta and free parameters.
-class StationarySolver final : public LinearSolver {
+class StationarySolver final : public AugmentedSolver<StationaryEvaluator> {
  public:
-  const char* name() const override { return "block elimination in the branch's factors"; }
-
-  bool factorize(const Jacobian& jacobian, const Borders& borders) override {
-    const auto* const* op = std::get_if<const Operator*>(&jacobian);
-    if (!op) return false;
-    at_ = dynamic_cast<const StationaryEvaluator*>(*op);
-    if (!at_) return false;
-    t_ = at_->tangent_of_branch();
-    G_x_ = at_->gradient_of_G();
-    has_gradient_ = at_->has_gradient();
-    B_ = at_->factors();
-    const Eigen::Index n = t_.size() - 1, m = borders.width();
-    rows_ = borders.rows;
-    X_.resize(n + 1, m);
-    y_.resize(n + 1);
-    S_.resize(1 + m, 1 + m);
-    rhs_.resize(1 + m);
-    S_(0, 0) = dG(t_);
-    S_.block(1, 0, m, 1).noalias() = rows_.transpose() * t_;
-    for (Eigen::Index j = 0; j < m; ++j) {
-      y_ << borders.columns.col(j).head(n), 0;
-      B_->solve(y_);
-      X_.col(j) = y_;
-      S_(0, 1 + j) = borders.columns(n, j) - dG(y_);
-      S_.col(1 + j).tail(m) = borders.corner.col(j);
-      S_.col(1 + j).tail(m).noalias() -= rows_.transpose() * y_;
-    }
-    if (!S_.allFinite()) return false;
-    small_.factorize(S_);
-    determinant_ = small_.determinant();
-    return determinant_ != 0 && std::isfinite(determinant_);
-  }
-
   void solve(Out x) const override {
     const Eigen::Index n = t_.size() - 1, m = X_.cols();
     y_ << x.head(n), 0;
@@ -251,26 +183,36 @@ class StationarySolver final : public LinearSolver {
     x.tail(m) = small_x_.tail(m);
   }
 
-  std::optional<int> determinant_sign() const override {
-    const auto sign = B_->determinant_sign();
-    if (!sign) return sign;
-    return determinant_ > 0 ? *sign : -*sign;
+ private:
+  void eliminate(const Borders& borders) override {
+    t_ = at_->tangent_of_branch();
+    G_x_ = at_->gradient_of_G();
+    has_gradient_ = at_->has_gradient();
+    const Eigen::Index n = t_.size() - 1, m = borders.width();
+    X_.resize(n + 1, m);
+    y_.resize(n + 1);
+    S_.resize(1 + m, 1 + m);
+    rhs_.resize(1 + m);
+    S_(0, 0) = dG(t_);
+    S_.block(1, 0, m, 1).noalias() = rows_.transpose() * t_;
+    for (Eigen::Index j = 0; j < m; ++j) {
+      y_ << borders.columns.col(j).head(n), 0;
+      B_->solve(y_);
+      X_.col(j) = y_;
+      S_(0, 1 + j) = borders.columns(n, j) - dG(y_);
+      S_.col(1 + j).tail(m) = borders.corner.col(j);
+      S_.col(1 + j).tail(m).noalias() -= rows_.transpose() * y_;
+    }
   }
 
- private:
   double dG(In d) const {
     if (has_gradient_) return G_x_.dot(d);
     return d.isZero(0) ? 0 : at_->along(d, *B_);
   }
 
-  const StationaryEvaluator* at_ = nullptr;
-  std::shared_ptr<LinearSolver> B_;
   Vector t_, G_x_;
   bool has_gradient_ = false;
-  Matrix rows_, X_, S_;
-  LU<double> small_;
-  double determinant_ = 1;
-  mutable Vector y_, rhs_, small_x_;
+  Matrix X_;
 };
 
 const OnCurveOfStationaryPoints& on_curve(const Accepted& now) {

@@ -1,8 +1,7 @@
 #include <arcslip/continuation/special_points/test_functions.hpp>
 
-#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/problem/difference.hpp>
-#include <arcslip/continuation/special_points/augmented_problem.hpp>
+#include <arcslip/continuation/special_points/augmented_evaluator.hpp>
 
 #include <algorithm>
 #include <array>
@@ -63,11 +62,9 @@ class ZeroEvaluator final : public Evaluator, public Operator {
         nearby_{Place(*definition_), Place(*definition_)},
         factors_(definition_->inner),
         scales_(n_ + m_),
-        border_(static_cast<int>(n_), 1),
-        c_(n_ + 1),
+        tangent_(definition_->inner.scales()),
         F_pa_(n_),
         R_(n_ + m_),
-        t_(n_ + 1),
         x_(n_ + m_),
         y_(n_ + m_),
         p_(definition_->inner.problem->parameters().size()),
@@ -76,9 +73,6 @@ class ZeroEvaluator final : public Evaluator, public Operator {
         g_nearby_{Vector(m_), Vector(m_)},
         jacobian_(static_cast<const Operator*>(this)) {
     scales_ << definition_->inner.scales(), definition_->functions.scales;
-    // A generic border row until there is a tangent, orthogonal to it by no symmetry.
-    for (Eigen::Index i = 0; i <= n_; ++i)
-      c_[i] = (1 + 0.3 * std::sin(7.0 * static_cast<double>(i))) / scales_[i];
   }
 
   Evaluated move_to(In x, In p, Needs needs) override {
@@ -92,10 +86,10 @@ class ZeroEvaluator final : public Evaluator, public Operator {
     if (needs == Needs::residual) return Evaluated::ok;
     here_.at().parameter_derivative(definition_->inner.along, F_pa_);
     if (!tangent()) return Evaluated::failed;
-    take_border();
+    tangent_.take_border();
     if (!std::exchange(has_tangent_, true)) {
       if (!tangent()) return Evaluated::failed;
-      take_border();
+      tangent_.take_border();
     }
     return Evaluated::ok;  // without derivatives, at the end of a piece, the linear solver fails
   }
@@ -120,7 +114,7 @@ class ZeroEvaluator final : public Evaluator, public Operator {
   Eigen::Index functions() const { return m_; }
   // B at the last point with a Jacobian.
   const std::shared_ptr<LinearSolver>& factors() const { return factors_.now(); }
-  const Vector& tangent_of_branch() const { return t_; }
+  const Vector& tangent_of_branch() const { return *tangent_; }
 
   // The derivative of g along d, n + m, at the last point; NaN where it is not known.
   void along(In d, Out dg) const {
@@ -159,25 +153,8 @@ class ZeroEvaluator final : public Evaluator, public Operator {
     for (std::size_t i = 0; i < 2; ++i) dg += found->weight[i] * g_nearby_[i];
   }
 
-  // t at the point of here_.
-  bool tangent() {
-    border_.columns.col(0) = F_pa_;
-    border_.rows.col(0) = c_.head(n_);
-    border_.corner(0, 0) = c_[n_];
-    if (!factors_.factorize(here_.at().jacobian(), border_)) return false;
-    t_.setZero();
-    t_[n_] = 1;
-    factors_.now()->solve(t_);
-    return t_.allFinite();
-  }
-
-  // The next border row is this tangent, the best choice for the conditioning of B.
-  void take_border() {
-    const auto scale = scales_.head(n_ + 1);
-    const double length = t_.cwiseQuotient(scale).squaredNorm();
-    if (length > 0 && std::isfinite(length))
-      c_ = t_.cwiseQuotient(scale).cwiseQuotient(scale) / std::sqrt(length);
-  }
+  // At the point of here_.
+  bool tangent() { return tangent_.compute(factors_, here_.at().jacobian(), F_pa_); }
 
   void apply(In d, Out y) const override {
     continuation::apply(here_.at().jacobian(), d.head(n_), y.head(n_));
@@ -192,8 +169,8 @@ class ZeroEvaluator final : public Evaluator, public Operator {
   mutable std::array<Place, 2> nearby_;
   SharedFactors factors_;
   Vector scales_;
-  Borders border_;
-  Vector c_, F_pa_, R_, t_, x_;
+  BorderedTangent tangent_;
+  Vector F_pa_, R_, x_;
   mutable Vector y_;
   Vector p_;
   mutable Vector q_;
@@ -204,19 +181,30 @@ class ZeroEvaluator final : public Evaluator, public Operator {
 };
 
 // x = (y, 0) + zeta (t, 0) + (0, dk) - (X, 0) mu leaves as many equations as there are functions and borders.
-class ZeroSolver final : public LinearSolver {
+class ZeroSolver final : public AugmentedSolver<ZeroEvaluator> {
  public:
-  const char* name() const override { return "block elimination in the branch's factors"; }
+  void solve(Out x) const override {
+    const Eigen::Index w = rows_.cols(), m = S_.rows() - w, n = directions_.rows() - m;
+    y_.setZero();
+    y_.head(n) = x.head(n);
+    B_->solve(y_.head(n + 1));
+    if (y_.allFinite())
+      at_->along(y_, rhs_.head(m));
+    else
+      rhs_.head(m).setConstant(std::nan(""));
+    rhs_.head(m) = x.segment(n, m) - rhs_.head(m);
+    rhs_.tail(w) = x.tail(w);
+    rhs_.tail(w).noalias() -= rows_.transpose() * y_;
+    small_.solve(rhs_, small_x_);
+    x.head(n + m) = y_;
+    x.head(n + m).noalias() += directions_ * small_x_;
+    x.tail(w) = small_x_.tail(w);
+  }
 
-  bool factorize(const Jacobian& jacobian, const Borders& borders) override {
-    const auto* const* op = std::get_if<const Operator*>(&jacobian);
-    if (!op) return false;
-    at_ = dynamic_cast<const ZeroEvaluator*>(*op);
-    if (!at_) return false;
+ private:
+  void eliminate(const Borders& borders) override {
     const Vector& t = at_->tangent_of_branch();
-    B_ = at_->factors();
     const Eigen::Index n = t.size() - 1, m = at_->functions(), w = borders.width();
-    rows_ = borders.rows;
     directions_.setZero(n + m, m + w);
     directions_.col(0).head(n + 1) = t;
     for (Eigen::Index i = 1; i < m; ++i) directions_(n + i, i) = 1;
@@ -236,43 +224,9 @@ class ZeroSolver final : public LinearSolver {
     }
     S_.topRightCorner(m, w) += borders.columns.bottomRows(m);
     S_.bottomRightCorner(w, w) += borders.corner;
-    if (!S_.allFinite()) return false;
-    small_.factorize(S_);
-    determinant_ = small_.determinant();
-    return determinant_ != 0 && std::isfinite(determinant_);
   }
 
-  void solve(Out x) const override {
-    const Eigen::Index w = rows_.cols(), m = S_.rows() - w, n = directions_.rows() - m;
-    y_.setZero();
-    y_.head(n) = x.head(n);
-    B_->solve(y_.head(n + 1));
-    if (y_.allFinite())
-      at_->along(y_, rhs_.head(m));
-    else
-      rhs_.head(m).setConstant(std::nan(""));
-    rhs_.head(m) = x.segment(n, m) - rhs_.head(m);
-    rhs_.tail(w) = x.tail(w);
-    rhs_.tail(w).noalias() -= rows_.transpose() * y_;
-    small_.solve(rhs_, small_x_);
-    x.head(n + m) = y_;
-    x.head(n + m).noalias() += directions_ * small_x_;
-    x.tail(w) = small_x_.tail(w);
-  }
-
-  std::optional<int> determinant_sign() const override {
-    const auto sign = B_->determinant_sign();
-    if (!sign) return sign;
-    return determinant_ > 0 ? *sign : -*sign;
-  }
-
- private:
-  const ZeroEvaluator* at_ = nullptr;
-  std::shared_ptr<LinearSolver> B_;
-  Matrix rows_, directions_, S_;
-  LU<double> small_;
-  double determinant_ = 1;
-  mutable Vector y_, rhs_, small_x_;
+  Matrix directions_;
 };
 
 }  // namespace
