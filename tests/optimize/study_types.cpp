@@ -229,7 +229,7 @@ TEST_CASE("what a study is over, or gives values to, is reported, and only lists
   const scene::Scene scene = scene_with_all_kinds();
   const auto names = [&](std::size_t i) {
     std::set<std::string> all;
-    for (const scene::Taken& each : scene.studies[i].type->taken(scene.studies[i].settings))
+    for (const scene::ParameterUse& each : scene.studies[i].type->taken(scene.studies[i].settings))
       all.insert(each.parameter);
     return all;
   };
