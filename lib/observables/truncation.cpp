@@ -70,9 +70,8 @@ PointCondition held_by(const continuation::Event& event) {
   if (event.nonsmooth) return PointCondition::corner;
   if (event.monitor == event_kinds::fold) return PointCondition::fold;
   if (event.monitor == event_kinds::branch_point) return PointCondition::branch_point;
-  const bool bifurcation = std::any_of(event_kinds::of_stability.begin(), event_kinds::of_stability.end(),
-                                       [&](const char* kind) { return event.monitor == kind; });
-  return bifurcation ? PointCondition::parameter : PointCondition::extremum;
+  return event_kinds::contains(event_kinds::of_stability, event.monitor) ? PointCondition::parameter
+                                                                         : PointCondition::extremum;
 }
 
 Truncation::Truncation(const hbm::HbmProblem& problem, int free, const Vector& p)

@@ -1,5 +1,6 @@
 #include <arcslip/output/gnuplot_axes.hpp>
 
+#include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/text.hpp>
 
 #include <algorithm>
@@ -147,8 +148,9 @@ Position Axes::place(const results::Record& values, const results::Figure& figur
 
 Axes axes_of(const results::FigureData& data, const results::Figure& figure) {
   const auto has_minimum = [](const results::FigureLine& line) {
-    return std::any_of(line.marks.begin(), line.marks.end(),
-                       [](const results::FigureMark& mark) { return mark.kind == "minimum"; });
+    return std::any_of(line.marks.begin(), line.marks.end(), [](const results::FigureMark& mark) {
+      return mark.kind == observables::event_kinds::minimum;
+    });
   };
   const bool has_minima = std::any_of(data.lines.begin(), data.lines.end(), has_minimum);
   if (!figure.areas.empty()) return {axis_of(data.columns[figure.x], false), {{0, 360}}};

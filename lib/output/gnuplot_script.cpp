@@ -3,6 +3,7 @@
 #include <arcslip/output/figure_labels.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/output/gnuplot_axes.hpp>
+#include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/results/version.hpp>
 
@@ -15,6 +16,9 @@
 namespace arcslip::output {
 namespace {
 
+namespace event_kinds = observables::event_kinds;
+
+using results::EventKind;
 using results::Figure;
 using results::FigureArea;
 using results::FigureBand;
@@ -22,7 +26,6 @@ using results::FigureColumn;
 using results::FigureData;
 using results::FigureLine;
 using results::FigureMark;
-using results::mark_kinds;
 using results::Record;
 using results::shortest;
 
@@ -39,24 +42,26 @@ void write_record(std::ostream& out, const Record& values) {
   out << '\n';
 }
 
-/// Styles of the marks, in the order of mark_kinds.
-constexpr std::array<const char*, results::mark_kinds.size()> mark_styles = {
-    "pointtype 7 pointsize 0.8",
-    "pointtype 4 pointsize 1 linewidth 1.5",
-    "pointtype 9 pointsize 1",
-    "pointtype 11 pointsize 1",
-    "pointtype 13 pointsize 1.1",
-    "pointtype 5 pointsize 0.7",
-    "pointtype 8 pointsize 1 linewidth 1.5",
-    "pointtype 6 pointsize 1 linewidth 1.5",
-    "pointtype 12 pointsize 1.1 linewidth 1.5",
-    "pointtype 2 pointsize 0.9 linewidth 1.5",
-    "pointtype 3 pointsize 0.9 linewidth 1.5",
-    "pointtype 15 pointsize 0.9",
-    "pointtype 14 pointsize 1 linewidth 1.5",
-    "pointtype 11 pointsize 0.9",
-    "pointtype 1 pointsize 0.9 linewidth 1.5",
-    "pointtype 7 pointsize 0.7"};
+/// Returns how points of a mark are drawn.
+std::string point_style(const results::Mark& mark) {
+  std::string text = "pointtype " + std::to_string(static_cast<int>(mark.shape));
+  text += " pointsize " + shortest(mark.size);
+  return mark.line_width > 0 ? text + " linewidth " + shortest(mark.line_width) : text;
+}
+
+/// Returns the kinds of the marks: those of the table in its order, then others as the lines have them.
+std::vector<EventKind> mark_kinds(const FigureData& data) {
+  const auto rank = [](const EventKind& kind) {
+    return std::find(event_kinds::all.begin(), event_kinds::all.end(), kind) - event_kinds::all.begin();
+  };
+  std::vector<EventKind> kinds;
+  for (const FigureLine& line : data.lines)
+    for (const FigureMark& mark : line.marks)
+      if (!event_kinds::contains(kinds, mark.kind.name)) kinds.push_back(mark.kind);
+  std::stable_sort(kinds.begin(), kinds.end(),
+                   [&](const EventKind& a, const EventKind& b) { return rank(a) < rank(b); });
+  return kinds;
+}
 
 /// Colours of the areas, in the order of area_kinds: alike where two kinds never meet.
 constexpr std::array<const char*, results::area_kinds.size()> area_colours = {
@@ -68,11 +73,6 @@ constexpr double band_opacity = 0.12;
 std::string band_style(std::size_t k, const std::string& colour) {
   const double opacity = 1 - std::pow(1 - band_opacity, static_cast<double>(k + 1));
   return "fillcolor rgb '" + colour + "' fillstyle transparent solid " + shortest(opacity) + " noborder";
-}
-
-/// Whether marks of this kind carry the label of their line: folds come in pairs that would repeat it.
-bool is_labelled(const std::string& kind) {
-  return kind != "fold";
 }
 
 /// The lines in axis coordinates from 0 to 1, to keep labels off them.
@@ -98,8 +98,10 @@ void write_labels(std::ostream& out, const FigureData& data, const Figure& figur
   std::vector<Label> labels;
   for (std::size_t i = 0; i < data.lines.size(); ++i) {
     for (const FigureMark& mark : data.lines[i].marks) {
-      const std::string& label = mark.label.empty() ? data.lines[i].label : mark.label;
-      if (is_labelled(mark.kind) && axes.shows(mark.record, figure) && !label.empty()) {
+      const results::Mark& shown = mark.kind.mark;
+      std::string label = mark.label.empty() ? std::string(shown.label) : mark.label;
+      if (label.empty()) label = data.lines[i].label;
+      if (shown.labelled && axes.shows(mark.record, figure) && !label.empty()) {
         wishes.push_back({axes.place(mark.record, figure), label});
         labels.push_back({mark.record[figure.x], mark.record[figure.y], i});
       }
@@ -152,15 +154,6 @@ void write_key_title(std::ostream& out, const FigureData& data) {
   out << " noenhanced left\nset key width " << (longest_name > entry ? longest_name - entry : 0) << '\n';
 }
 
-/// The name of a kind in a key: "period doubling".
-std::string in_words(std::string_view kind) {
-  if (kind == "neimark_sacker") return "Neimark-Sacker";
-  std::string words(kind);
-  if (kind.starts_with("resonance_1_")) words[words.size() - 2] = ':';
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
-
 /// Whether a line has parts that are unstable, or others.
 bool has_parts(const FigureLine& line, bool unstable) {
   for (std::size_t i = 0; i < line.parts.size(); ++i)
@@ -173,7 +166,7 @@ bool any_unstable(const FigureData& data) {
                      [](const FigureLine& line) { return has_parts(line, true); });
 }
 
-bool has_mark(const FigureLine& line, std::string_view kind) {
+bool has_mark(const FigureLine& line, const EventKind& kind) {
   return std::any_of(line.marks.begin(), line.marks.end(),
                      [&](const FigureMark& mark) { return mark.kind == kind; });
 }
@@ -189,17 +182,18 @@ bool is_in(const Figure& figure, const FigureLine& line) {
   });
 }
 
-bool is_in(const Figure& figure, const FigureLine& line, std::string_view kind) {
+bool is_in(const Figure& figure, const FigureLine& line, const EventKind& kind) {
   return std::any_of(line.marks.begin(), line.marks.end(),
                      [&](const FigureMark& mark) { return mark.kind == kind && is_in(figure, mark.record); });
 }
 
 /// The blocks of the data before the areas.
 int blocks_of_lines(const FigureData& data) {
+  const std::vector<EventKind> kinds = mark_kinds(data);
   int blocks = 0;
   for (const FigureLine& line : data.lines) {
     blocks += (has_parts(line, false) ? 1 : 0) + (has_parts(line, true) ? 1 : 0);
-    for (const std::string_view kind : mark_kinds) blocks += has_mark(line, kind) ? 1 : 0;
+    for (const EventKind& kind : kinds) blocks += has_mark(line, kind) ? 1 : 0;
   }
   return blocks;
 }
@@ -236,7 +230,7 @@ void write_plot(std::ostream& out, const FigureData& data, const Figure& figure)
   const std::size_t key_step = (count + most_in_key - 1) / most_in_key;
   std::vector<std::string> curves;
   std::vector<std::string> marks;
-  std::array<bool, results::mark_kinds.size()> in_figure{};
+  const std::vector<EventKind> kinds = mark_kinds(data);
   int index = 0;
   const bool with_stability = any_unstable(data);
   for (std::size_t i = 0; i < count; ++i) {
@@ -254,24 +248,20 @@ void write_plot(std::ostream& out, const FigureData& data, const Figure& figure)
           paint +
           (std::exchange(titled, true) ? " notitle" : " title " + single_quoted(title) + " noenhanced"));
     }
-    for (std::size_t k = 0; k < mark_kinds.size(); ++k) {
-      if (has_mark(line, mark_kinds[k])) {
-        in_figure[k] = in_figure[k] || is_in(figure, line, mark_kinds[k]);
-        marks.push_back("data index " + std::to_string(index++) + columns + " with points " + mark_styles[k] +
-                        paint + " notitle");
-      }
-    }
+    for (const EventKind& kind : kinds)
+      if (has_mark(line, kind))
+        marks.push_back("data index " + std::to_string(index++) + columns + " with points " +
+                        point_style(kind.mark) + paint + " notitle");
   }
   curves.insert(curves.end(), marks.begin(), marks.end());
   if (with_stability)
     curves.push_back(std::string("NaN with lines linewidth 2 dashtype (8,5) linecolor rgb '") + other_colour +
                      "' title 'unstable'");
-  for (std::size_t k = 0; k < mark_kinds.size(); ++k) {
-    if (in_figure[k]) {
-      curves.push_back(std::string("NaN with points ") + mark_styles[k] + " linecolor rgb '" + other_colour +
-                       "' title '" + in_words(mark_kinds[k]) + "'");
-    }
-  }
+  for (const EventKind& kind : kinds)
+    if (std::any_of(data.lines.begin(), data.lines.end(),
+                    [&](const FigureLine& line) { return is_in(figure, line, kind); }))
+      curves.push_back("NaN with points " + point_style(kind.mark) + " linecolor rgb '" + other_colour +
+                       "' title " + single_quoted(std::string(kind.words)));
   if (figure.x == 0) add_bands_to_key(data, curves);
   out << "plot ";
   const char* separator = "";
@@ -302,6 +292,7 @@ void write_figure_data(std::ostream& out, const FigureData& data) {
     separator = ", ";
   }
   out << '\n';
+  const std::vector<EventKind> kinds = mark_kinds(data);
   for (const FigureLine& line : data.lines) {
     out << "# " << line.heading << '\n';
     for (const bool unstable : {false, true}) {
@@ -314,7 +305,7 @@ void write_figure_data(std::ostream& out, const FigureData& data) {
       }
       out << '\n';
     }
-    for (const std::string_view kind : mark_kinds) {
+    for (const EventKind& kind : kinds) {
       bool any = false;
       for (const FigureMark& mark : line.marks) {
         if (mark.kind == kind) {

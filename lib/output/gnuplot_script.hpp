@@ -14,7 +14,7 @@ namespace arcslip::output {
 std::vector<std::string> image_names(const results::FigureData& data, const std::string& name);
 
 /// For each line an indexed block with its points, then one for each kind of its marks, in the order of
-/// results::mark_kinds. Empty blocks are omitted. Then a block for each area of each figure, its strips
+/// results/event_kinds.hpp. Empty blocks are omitted. Then a block for each area of each figure, its strips
 /// apart.
 void write_figure_data(std::ostream& out, const results::FigureData& data);
 

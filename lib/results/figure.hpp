@@ -1,6 +1,8 @@
 #pragma once
 // Figures as data, independent of the program that draws them.
 
+#include <arcslip/results/event_kind.hpp>
+
 #include <array>
 #include <cstddef>
 #include <string>
@@ -25,26 +27,8 @@ struct FigureColumn {
 
 using Record = std::vector<double>;  // a value for each column, NaN if missing
 
-/// The kinds of events that are drawn, in the order of the data.
-inline constexpr std::array<std::string_view, 16> mark_kinds = {"peak",
-                                                                "fold",
-                                                                "maximum",
-                                                                "minimum",
-                                                                "cusp",
-                                                                "turn",
-                                                                "period_doubling",
-                                                                "neimark_sacker",
-                                                                "symmetry_breaking",
-                                                                "stability_lost",
-                                                                "jump",
-                                                                "resonance_1_1",
-                                                                "resonance_1_2",
-                                                                "resonance_1_3",
-                                                                "resonance_1_4",
-                                                                "best"};
-
 struct FigureMark {
-  std::string kind;
+  EventKind kind;
   Record record;
   std::string label{};  // empty: that of its line
 };

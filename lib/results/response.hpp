@@ -193,7 +193,7 @@ using results::name;
 using results::Status;
 
 struct SolverSummary {
-  std::string linear_solver;  // "dense LU"
+  std::string linear_solver;  // "dense LU"; of parts that differ all, "a, b"; empty: nothing was traced
   int unknowns = 0;
   long points = 0, rejected_steps = 0, residuals = 0, jacobians = 0, factorizations = 0, solves = 0;
   double seconds = 0;

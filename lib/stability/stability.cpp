@@ -222,7 +222,8 @@ class Places {
 
 std::vector<continuation::Monitor> stability_monitors(const MultipliersAt& of_period,
                                                       const MultipliersAt& of_half_period) {
-  const auto monitor = [](const char* kind, const MultipliersAt& at, auto value, auto is_event) {
+  const auto monitor = [](const results::EventKind& kind, const MultipliersAt& at, auto value,
+                          auto is_event) {
     continuation::Monitor each;
     each.name = kind;
     // 1 where the multipliers are not known.
@@ -237,7 +238,7 @@ std::vector<continuation::Monitor> stability_monitors(const MultipliersAt& of_pe
     return each;
   };
   const MultipliersAt of_map = of_half_period ? of_half_period : of_period;
-  const auto of_all = [&](const char* kind, double (*value)(const Multipliers&),
+  const auto of_all = [&](const results::EventKind& kind, double (*value)(const Multipliers&),
                           bool (*is_event)(const Multipliers&)) {
     return monitor(
         kind, of_map, [=](const Accepted&, const Multipliers& all) { return value(all); },
@@ -297,9 +298,7 @@ void estimate_bifurcations(ResponseBranch& branch) {
   };
   for (ResponseEvent& event : branch.events) {
     if (event.after + 1 >= branch.points.size() || !event.point.stability) continue;
-    if (std::find(event_kinds::of_curves.begin(), event_kinds::of_curves.end(), event.kind) ==
-        event_kinds::of_curves.end())
-      continue;
+    if (!event_kinds::contains(event_kinds::of_curves, event.kind)) continue;
     const ResponsePoint &before = branch.points[event.after], &beyond = branch.points[event.after + 1];
     if (!before.stability || !beyond.stability) continue;
     const double change = distance_of(event.kind, beyond.stability->multipliers) -

@@ -23,6 +23,8 @@ using observables::Way;
 
 constexpr int highest_order = 999;
 constexpr double rounding = 1e-16;  // the least error that is drawn
+constexpr results::EventKind best{
+    .name = "best", .words = "best", .mark = {results::Shape::filled_circle, 0.7}};
 
 scene::file::KeysOf<AccuracySettings> keys_of_accuracy() {
   scene::file::KeysOf<AccuracySettings> keys;
@@ -128,7 +130,7 @@ std::vector<results::FigureData> accuracy_figures(const scene::Scene& scene, std
         marks.emplace_back();
       }
       lines.back().second.push_back(record);
-      if (trial.best) marks.back().push_back({"best", record});
+      if (trial.best) marks.back().push_back({best, record});
     }
     for (std::size_t i = 0; i < lines.size(); ++i) {
       auto& [label, points] = lines[i];

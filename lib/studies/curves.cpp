@@ -19,9 +19,9 @@ using observables::Resonance;
 
 constexpr std::array<scene::file::Word<BifurcationsOf>, 4> bifurcations_of = {
     {{"all", BifurcationsOf::all},
-     {observables::event_kinds::period_doubling, BifurcationsOf::period_doubling},
-     {observables::event_kinds::neimark_sacker, BifurcationsOf::neimark_sacker},
-     {observables::event_kinds::symmetry_breaking, BifurcationsOf::symmetry_breaking}}};
+     {observables::event_kinds::period_doubling.name, BifurcationsOf::period_doubling},
+     {observables::event_kinds::neimark_sacker.name, BifurcationsOf::neimark_sacker},
+     {observables::event_kinds::symmetry_breaking.name, BifurcationsOf::symmetry_breaking}}};
 
 scene::file::KeysOf<BifurcationRange> keys_of_bifurcations() {
   scene::file::KeysOf<BifurcationRange> keys;

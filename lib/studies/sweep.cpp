@@ -1,5 +1,6 @@
 // The study "sweep": which motions a slow sweep of the frequency follows.
 #include <arcslip/analyses/modes_and_time/frequency_sweep.hpp>
+#include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/catalogue.hpp>
@@ -129,7 +130,8 @@ struct SweepTables {
           const double value = at.item->largest_multiplier;
           return std::isnan(value) ? std::nullopt : std::optional(value);
         });
-    jumps.add({"kind"}, "", "`jump`", [](const Jump&) { return std::string("jump"); });
+    jumps.add({"kind"}, "", "`jump`",
+              [](const Jump&) { return std::string(observables::event_kinds::jump); });
     jumps.add({"direction"}, "", "of the sweep",
               [](const Jump& at) { return std::string(name(at.sweep->direction)); });
     jumps.add({"omega"}, "rad/s", "last frequency before", [](const Jump& at) { return at.item->omega; });
@@ -241,8 +243,8 @@ results::FigureLine line_of_sweep(const scene::Scene& scene, const FrequencySwee
     const Record after{in_scene_unit(scene, jump->omega_after), jump->amplitude_after, observables::no_value};
     line.parts.back().push_back(before);
     line.parts.push_back({after});
-    line.marks.push_back({"jump", before});
-    line.marks.push_back({"jump", after});
+    line.marks.push_back({observables::event_kinds::jump, before});
+    line.marks.push_back({observables::event_kinds::jump, after});
     ++jump;
   }
   return line;

@@ -21,8 +21,10 @@
 #include <arcslip/optimize/search/optimum.hpp>
 #include <arcslip/results/event_kinds.hpp>
 
+#include <array>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace arcslip::optimize {
@@ -43,17 +45,34 @@ struct OptimumPoint {
   bool minimum = true;        // false: a saddle; the second-order condition does not hold
 };
 
-/// Kinds of events of a curve of optima.
+/// Kinds of events of a curve of optima, listed in docs/results.md.
 namespace event_kinds {
 
 using observables::event_kinds::maximum;
-using observables::event_kinds::minimum;                       // of the amplitude over s
-inline constexpr const char* turning_point = "turning_point";  // in s
-inline constexpr const char* bound_reached = "bound_reached";  // the active set changes
-inline constexpr const char* bound_left = "bound_left";
-inline constexpr const char* peak_joins = "peak_joins";
-inline constexpr const char* peak_leaves = "peak_leaves";
-inline constexpr const char* peak_changes = "peak_changes";  // an active peak changes its kind
+using observables::event_kinds::minimum;  // of the amplitude over s
+using results::EventKind;
+inline constexpr std::string_view of_optima = "curves of optima";
+inline constexpr EventKind turning_point{"turning_point", "turning point",
+                                         observables::event_kinds::turn.mark,
+                                         "the curve turns in its parameter", of_optima};
+inline constexpr EventKind bound_reached{
+    "bound_reached", "bound reached", {}, "a `parameter` reaches a bound", of_optima};
+inline constexpr EventKind bound_left{
+    "bound_left", "bound left", {}, "a `parameter` leaves a bound", of_optima};
+inline constexpr EventKind peak_joins{
+    "peak_joins", "peak joins", {}, "a further peak, at a `frequency`, becomes as high", of_optima};
+inline constexpr EventKind peak_leaves{
+    "peak_leaves", "peak leaves", {}, "a peak, at a `frequency`, is no longer as high", of_optima};
+inline constexpr EventKind peak_changes{
+    "peak_changes",
+    "peak changes",
+    {},
+    "a peak, at a `frequency`, changes its kind, as where a resonance reaches a corner",
+    of_optima};
+
+/// Those that no other results have.
+inline constexpr std::array of_curves = {turning_point, bound_reached, bound_left,
+                                         peak_joins,    peak_leaves,   peak_changes};
 
 }  // namespace event_kinds
 

@@ -234,12 +234,6 @@ observables::ResponseBranch branch_of(const OptimumCurveResult& result) {
   return branch;
 }
 
-// What figure a kind of events is marked with; empty: none.
-std::string mark_of(const std::string& kind) {
-  if (kind == event_kinds::turning_point) return observables::event_kinds::turn;
-  return kind == event_kinds::minimum || kind == event_kinds::maximum ? kind : "";
-}
-
 results::FigureData figure_of(const scene::Scene& scene, const OptimumCurveResult& result) {
   const observables::ResponseBranch branch = branch_of(result);
   results::FigureData data = studies::figures_of(scene, branch_kind, {&branch, 1});
@@ -249,14 +243,18 @@ results::FigureData figure_of(const scene::Scene& scene, const OptimumCurveResul
     record.insert(record.end(), at.design.begin(), at.design.end());
   };
   for (const OptimumEvent& event : result.curve.events) {
-    if (mark_of(event.kind).empty()) continue;
+    const auto* const own =
+        std::find(event_kinds::of_curves.begin(), event_kinds::of_curves.end(), event.kind);
+    const results::EventKind kind =
+        own != event_kinds::of_curves.end() ? *own : observables::event_kinds::kind_named(event.kind);
+    if (kind.mark.shape == results::Shape::none) continue;
     results::Record record = line.parts[0][std::min(event.after, line.parts[0].size() - 1)];
     record[0] = event.point.along;
     record[studies::frequency_column(branch_kind)] =
         studies::in_scene_unit(scene, event.point.response.omega);
     record[studies::amplitude_column(branch_kind)] = event.point.amplitude;
     add(record, event.point);
-    line.marks.push_back({mark_of(event.kind), record});
+    line.marks.push_back({kind, record});
   }
   for (std::size_t i = 0; i < line.parts[0].size(); ++i) add(line.parts[0][i], result.curve.points[i]);
   for (const DesignVariable& v : result.problem.over) {

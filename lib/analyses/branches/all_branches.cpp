@@ -41,12 +41,6 @@ Vector with_frequency(continuation::In u, double omega) {
   return v;
 }
 
-const char* reported(const std::string& kind) {
-  if (kind == event_kinds::symmetry_breaking) return "break of symmetry";
-  if (kind == event_kinds::period_doubling) return "period doubling";
-  return "branch point";
-}
-
 class AllBranches {
  public:
   explicit AllBranches(const BranchOptions& following) : f_(following) {}
@@ -110,7 +104,7 @@ class AllBranches {
 
   void untraced(std::size_t branch, const std::string& kind, double omega, const std::string& why) {
     known_[branch].response.untraced.push_back("the branch that leaves at the " +
-                                               std::string(reported(kind)) + " at " + frequency(omega) +
+                                               event_kinds::words_of(kind) + " at " + frequency(omega) +
                                                ": " + why);
   }
 
@@ -316,7 +310,7 @@ class AllBranches {
     while (!run.end && tracer.step()) look();
     look();
     continuation::Branch traced = tracer.take();
-    add(traced.counts, run.known.response.solver);
+    add(traced, run.known.response.solver);
     run.events = std::move(traced.events);
     run.stop = std::move(traced.stop);
     stopped_ = stopped_ || run.stop.reason == StopReason::user;
@@ -424,7 +418,7 @@ class AllBranches {
       if (!other.wider && in.dot(other.half_branch.direction, -end.tangent) < same_direction) continue;
       other.followed = true;
       end.way = i;
-      end.message = "reached the " + std::string(reported(other.kind)) + " at " +
+      end.message = "reached the " + event_kinds::words_of(other.kind) + " at " +
                     frequency(event.point.parameter) + " of a branch that is known";
       return end;
     }

@@ -30,7 +30,6 @@ ResponseBranch described(const model::Model& model, const std::string& over) {
   branch.period = h.period;
   branch.symmetry = h.odd ? Symmetry::antisymmetric : Symmetry::none;
   for (int i = 0; i < h.cosines(); ++i) branch.harmonics.push_back(h.cosine_order(i));
-  branch.solver.linear_solver = "dense LU";
   return branch;
 }
 
@@ -96,6 +95,11 @@ void add_to(To& to, const Counts& counts) {
   to.solves += counts.solves;
 }
 
+void add_name(const std::string& solver, SolverSummary& to) {
+  if (to.linear_solver.find(solver) == std::string::npos)
+    to.linear_solver += (to.linear_solver.empty() ? "" : ", ") + solver;
+}
+
 }  // namespace
 
 void estimate_flat_peaks(ResponseBranch& branch) {
@@ -125,12 +129,14 @@ void add(const continuation::Counts& counts, SolverSummary& to) {
   add_to(to, counts);
 }
 
-void add(const continuation::Counts& counts, continuation::Counts& to) {
-  add_to(to, counts);
+void add(const continuation::Branch& traced, SolverSummary& to) {
+  add_to(to, traced.counts);
+  add_name(traced.linear_solver, to);
 }
 
 void add(const SolverSummary& part, SolverSummary& to) {
   add_to(to, part);
+  add_name(part.linear_solver, to);
   to.seconds += part.seconds;
 }
 

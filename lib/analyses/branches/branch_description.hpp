@@ -18,7 +18,7 @@ inline constexpr double smallest_step = 1e-2;   // of the largest at the low end
 /// |u| over that at the start: beyond, rounding leaves less than 8 digits.
 inline constexpr double resolvable = 1e8;
 
-/// An empty branch of a model: its parameters, harmonics and solver. over: the free parameter, if it is not
+/// An empty branch of a model: its parameters and harmonics. over: the free parameter, if it is not
 /// the frequency.
 ResponseBranch described(const model::Model& model, const std::string& over = {});
 
@@ -44,9 +44,10 @@ void drop_peaks_of_rounding(ResponseBranch& branch);
 /// lower it least, so that their own estimate alone is too low.
 void estimate_flat_peaks(ResponseBranch& branch);
 
-void add(const continuation::Counts& counts, SolverSummary& to);
-void add(const continuation::Counts& counts, continuation::Counts& to);
+/// Adds the work of a trace, or of a part, with the name of its linear solver if it is not there yet.
+void add(const continuation::Branch& traced, SolverSummary& to);
 void add(const SolverSummary& part, SolverSummary& to);  // with its time
+void add(const continuation::Counts& counts, SolverSummary& to);
 
 Status status_of(continuation::StopReason reason);
 

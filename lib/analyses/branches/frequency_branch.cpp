@@ -55,10 +55,9 @@ std::string causes(const model::Model& model, const Vector& p) {
 
 }  // namespace
 
-std::string doubt_of_rounding(const model::Model& model, const Vector& p,
-                              const continuation::Counts& counts) {
+std::string doubt_of_rounding(const model::Model& model, const Vector& p, const SolverSummary& work) {
   const bool in_rounding =
-      static_cast<double>(counts.rejected_steps) > rejected_in_rounding * static_cast<double>(counts.points);
+      static_cast<double>(work.rejected_steps) > rejected_in_rounding * static_cast<double>(work.points);
   const std::string apart = in_rounding ? model::stiffness_apart(model, p) : "";
   return apart.empty() ? "" : "dominated by rounding errors, so that its results lose digits: " + apart;
 }

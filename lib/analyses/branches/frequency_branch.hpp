@@ -61,7 +61,7 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
 /// For a branch dominated by rounding errors, with as many rejected as accepted steps: that it is, and the
 /// stiffnesses with too large a ratio. Empty: no doubt. p: of the branch.
 std::string doubt_of_rounding(const model::Model& model, const continuation::Vector& p,
-                              const continuation::Counts& counts);
+                              const SolverSummary& work);
 
 /// For users of scenes: the message of a branch that ended early also names stiffnesses with too large a
 /// ratio, and friction without a stiffness. It does not mention the Jacobian, which is not checked for

@@ -15,12 +15,13 @@ using continuation::Vector;
 namespace {
 
 constexpr int most_corrections = 20;
+constexpr const char* passage = "passage";
 constexpr double at_value = 1e-14, not_moved = 1e-3;  // relative
 
 }  // namespace
 
 continuation::Monitor passage_monitor(double value) {
-  return {event_kinds::passage, [value](const continuation::Accepted& now) { return now.parameter - value; }};
+  return {passage, [value](const continuation::Accepted& now) { return now.parameter - value; }};
 }
 
 Passages::Passages(const hbm::HbmProblem& problem, Vector p, int parameter)
@@ -78,7 +79,7 @@ void Passages::add_between(const continuation::Point& fold, const continuation::
 
 void Passages::take(const continuation::Branch& branch) {
   for (const continuation::Event& event : branch.events) {
-    if (event.monitor == event_kinds::passage) add_near(event.point.u, event.located);
+    if (event.monitor == passage) add_near(event.point.u, event.located);
     if (event.monitor != event_kinds::fold || event.after + 1 >= branch.points.size()) continue;
     for (const std::size_t i : {event.after, event.after + 1}) {
       const continuation::Point &fold = event.point, &nearby = branch.points[i];

@@ -5,12 +5,10 @@
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/reasons.hpp>
 
-#include <string_view>
-
 namespace arcslip::observables {
 
-static_assert(std::string_view(event_kinds::fold) == continuation::fold_event);
-static_assert(std::string_view(event_kinds::cusp) == continuation::cusp_event);
+static_assert(event_kinds::fold == continuation::fold_event);
+static_assert(event_kinds::cusp == continuation::cusp_event);
 
 results::Reason reason_of(continuation::StopReason reason) {
   using continuation::StopReason;

@@ -22,7 +22,7 @@ constexpr double reaches[] = {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};  
 constexpr double jump_width = 1e-12;  // in scales: the sides of a jump
 constexpr double jumps = 1e-3;        // by more, on both sides of it
 
-Monitor kappa_monitor(const char* kind, Eigen::Index at, double kappa, bool terminal) {
+Monitor kappa_monitor(const results::EventKind& kind, Eigen::Index at, double kappa, bool terminal) {
   Monitor monitor;
   monitor.name = kind;
   monitor.value = [=](const Accepted& now) { return now.u[at] - kappa; };
@@ -71,7 +71,7 @@ SpecialCurve BifurcationTracer::run(const SpecialPoint& start, int direction) {
   continuation::Branch branch = continuation::trace(
       equations_, {*x, parameters(start.x, start.over), way_.index, direction}, options, monitors(), record);
   add_scene_hint(problem_->model(), parameters(start.x, start.over), branch);
-  add(branch.counts, result.counts);
+  add(branch, result.solver);
   end.stop = branch.stop;
   if (branch.points.empty()) return result;
   const continuation::Point& last = branch.points.back();

@@ -96,7 +96,9 @@ class Curves {
     std::string doubt, unknown_stability;
   };
 
-  std::string what() const { return kinds_.size() > 1 ? "bifurcation" : words_of(kinds_.front()); }
+  std::string what() const {
+    return kinds_.size() > 1 ? "bifurcation" : event_kinds::words_of(kinds_.front());
+  }
 
   std::string what_was_looked_at() const {
     if (is_bifurcation(kinds_.front())) {
@@ -187,7 +189,7 @@ class Curves {
   // The first of them: there may be some at each value of the parameter.
   void tell_leaving(const std::vector<LeavingBranch>& all, double over) {
     if (all.empty()) return;
-    tell_untraced({"the branch that leaves at the " + words_of(all.front().kind) + " at " +
+    tell_untraced({"the branch that leaves at the " + event_kinds::words_of(all.front().kind) + " at " +
                    frequency_text(all.front().omega, unit_) +
                    ": only one branch was looked at (\"branches\" is \"one\")"},
                   over);
@@ -215,7 +217,7 @@ class Curves {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
     Vector p = hbm::parameters_at(*start.problem, start.x[start.problem->size()]);
     p[way_.index] = start.over;
-    std::string doubt = doubt_of_rounding(*way_.model, p, curve.counts);
+    std::string doubt = doubt_of_rounding(*way_.model, p, curve.solver);
     found_.push_back({start.kind, std::move(curve), start.problem, seconds.count(), std::move(doubt),
                       section_->unknown_stability()});
   }
@@ -316,11 +318,11 @@ class Curves {
     OverParameter way = way_;
     way.model = found.problem->shared_model();
     auto parts = CurveParts(found.kind, unit_, way).of(found.curve);
-    SolverSummary& solver = parts.front().solver;
-    solver.unknowns = found.problem->size() + 1;
-    solver.seconds = found.seconds;
-    add(found.curve.counts, solver);
+    parts.front().solver = found.curve.solver;
+    parts.front().solver.unknowns = found.problem->size() + 1;
+    parts.front().solver.seconds = found.seconds;
     for (ResponseBranch& part : parts) {
+      part.solver.linear_solver = found.curve.solver.linear_solver;
       part.unknown_stability = found.unknown_stability;
       if (part.status != Status::complete || found.doubt.empty()) continue;
       part.doubt = found.doubt;

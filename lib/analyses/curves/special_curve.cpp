@@ -193,7 +193,7 @@ continuation::Branch SpecialCurveTracer::trace(const CurveStart& from) {
     std::erase_if(result_.events, beyond);
     std::erase_if(result_.points, beyond);
   }
-  add(branch.counts, result_.counts);
+  add(branch, result_.solver);
   return branch;
 }
 

@@ -64,7 +64,7 @@ struct SpecialCurve {
   std::vector<double> turns;             // arclengths of the corners where the parameter turns back
   std::optional<SpecialCurveEnd> begin;  // none: it starts at an end of the range
   SpecialCurveEnd end;
-  continuation::Counts counts;
+  SolverSummary solver{};
 };
 
 /// Joins the two halves of a curve traced from one of its points, in the order of `ahead`.

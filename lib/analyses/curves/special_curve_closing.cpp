@@ -39,7 +39,7 @@ SpecialCurve joined(SpecialCurve back, SpecialCurve ahead) {
   back.turns.insert(back.turns.end(), ahead.turns.begin(), ahead.turns.end());
   back.begin = std::move(back.end);
   back.end = std::move(ahead.end);
-  add(ahead.counts, back.counts);
+  add(ahead.solver, back.solver);
   return back;
 }
 

@@ -30,28 +30,17 @@ bool is_extreme(const ResponseEvent& event) {
 }  // namespace
 
 bool is_bifurcation(const std::string& kind) {
-  return std::find(event_kinds::of_curves.begin(), event_kinds::of_curves.end(), kind) !=
-         event_kinds::of_curves.end();
+  return event_kinds::contains(event_kinds::of_curves, kind);
 }
 
 bool is_zero_of_function(const std::string& kind) {
   return is_bifurcation(kind) || kind == event_kinds::phase_resonance;
 }
 
-std::string words_of(const std::string& kind) {
-  if (kind == event_kinds::peak) return "resonance peak";
-  if (kind == event_kinds::phase_resonance) return "phase resonance";
-  if (kind == event_kinds::period_doubling) return "period doubling";
-  if (kind == event_kinds::neimark_sacker) return "Neimark-Sacker point";
-  if (kind == event_kinds::symmetry_breaking) return "break of symmetry";
-  if (kind == event_kinds::branch_point) return "branch point";
-  return kind;
-}
-
 CurveParts::CurveParts(std::string kind, scene::FrequencyUnit unit, OverParameter way)
     : kind_(std::move(kind)),
       peaks_(kind_ == event_kinds::peak),
-      what_(words_of(kind_)),
+      what_(event_kinds::words_of(kind_)),
       unit_(unit),
       way_(std::move(way)) {}
 
@@ -83,7 +72,7 @@ ResponseBranch CurveParts::stopped(double over) const {
 // At a cusp a curve of folds turns in everything, and where a curve of peaks turns, dA/ds = dA/dp dp/ds is
 // zero: neither is an event of its own.
 bool CurveParts::belongs_to_another(const SpecialCurve& curve, const SpecialCurve::EventAt& each) const {
-  const char* first = peaks_ ? event_kinds::fold : event_kinds::cusp;
+  const results::EventKind& first = peaks_ ? event_kinds::fold : event_kinds::cusp;
   return each.event.kind != first && each.event.kind != event_kinds::corner &&
          std::any_of(curve.events.begin(), curve.events.end(), [&](const auto& other) {
            const auto &a = other.event.point, &b = each.event.point;

@@ -18,9 +18,6 @@ bool is_bifurcation(const std::string& kind);
 /// Whether it is continued as a zero of a function of the solution: a bifurcation, or phase resonance.
 bool is_zero_of_function(const std::string& kind);
 
-/// "resonance peak", "fold", "period doubling", "Neimark-Sacker point", "break of symmetry".
-std::string words_of(const std::string& kind);
-
 class CurveParts {
  public:
   /// kind: of the points of the curves (results/event_kinds.hpp).

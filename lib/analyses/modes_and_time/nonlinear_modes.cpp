@@ -41,16 +41,16 @@ std::string metres(double amplitude) {
 }
 
 // An extremum of the damping ratio, unknown zeta: of 1 + zeta, next to which rounding counts for nothing.
-continuation::Monitor extremum(const char* kind, Crossing crossing, bool divides, int zeta) {
+continuation::Monitor extremum(const results::EventKind& kind, Crossing crossing, bool divides, int zeta) {
   continuation::Monitor monitor{kind, [zeta](const Accepted& now) { return now.tangent[zeta]; }, crossing,
                                 [zeta](const Accepted& now) { return 1 + now.u[zeta]; }};
   monitor.divides_at_kinks = divides;
   return monitor;
 }
 
-continuation::Monitor amplitude_monitor(const char* name, double log_amplitude) {
+continuation::Monitor amplitude_monitor(std::string name, double log_amplitude) {
   continuation::Monitor monitor;
-  monitor.name = name;
+  monitor.name = std::move(name);
   monitor.value = [=](const Accepted& now) { return now.parameter - log_amplitude; };
   return monitor;
 }
@@ -93,7 +93,7 @@ class ModeStudy {
     Vector u = start.u;
     if (start.amplitude < range_.from) {
       const auto ahead = branch(problem, u, start.amplitude, range_.from, {});
-      add(ahead.counts, result_.solver);
+      add(ahead, result_.solver);
       if (stopped_) return stop();
       if (ahead.stop.reason != StopReason::boundary || ahead.stop.value < std::log(range_.from))
         return fail(reasons::start_failed, "mode " + std::to_string(range_.mode) + " was not found at " +
@@ -108,7 +108,7 @@ class ModeStudy {
     const auto traced = branch(
         problem, u, range_.from, range_.to,
         [&](const Accepted& now, const continuation::Event* event) { return record(*problem, now, event); });
-    add(traced.counts, result_.solver);
+    add(traced, result_.solver);
     finish(traced);
     drop_rounding();
     add_ends();
@@ -327,7 +327,7 @@ class ModeStudy {
   // short.
   void add_ends() {
     if (result_.points.empty()) return;
-    const auto end = [](const char* kind, const ResponsePoint& point, std::size_t after) {
+    const auto end = [](const results::EventKind& kind, const ResponsePoint& point, std::size_t after) {
       return ResponseEvent{kind, false, true, point, after};
     };
     result_.events.insert(result_.events.begin(), end(event_kinds::start, result_.points.front(), 0));

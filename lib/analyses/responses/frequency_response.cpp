@@ -274,7 +274,7 @@ class Sweep {
     estimate_flat_peaks(course.result);
     course.result.unknown_stability = traced.unknown_stability;
     course.result.solver.unknowns = problem->size();
-    add(traced.branch.counts, course.result.solver);
+    add(traced.branch, course.result.solver);
     course.result.solver.seconds = seconds_since(began);
     return std::move(course.result);
   }
@@ -288,7 +288,7 @@ class Sweep {
   void finish(const FrequencyBranch& traced, double from, Course& course) {
     ResponseBranch& result = course.result;
     const continuation::Branch& branch = traced.branch;
-    add(branch.counts, result.solver);
+    add(branch, result.solver);
     const UnboundedGrowth& growth = course.watch.growth();
     if (growth.unbounded) {
       end_unbounded(result, growth, course.watch.pole());
@@ -297,7 +297,7 @@ class Sweep {
     }
     const bool is_through = branch.stop.reason == StopReason::boundary && branch.stop.value == upper_;
     if (is_through)
-      result.doubt = doubt_of_rounding(*model_, hbm::parameters_at(*traced.problem, from), branch.counts);
+      result.doubt = doubt_of_rounding(*model_, hbm::parameters_at(*traced.problem, from), result.solver);
     set_end(branch.stop, from, upper_, frequency_unit_, result);
     if (is_through && !result.doubt.empty()) result.stop.message += "; " + result.doubt;
     if (result.stop.reason != reasons::boundary && branch.stop.reason != StopReason::start_failed &&

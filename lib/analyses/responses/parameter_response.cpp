@@ -23,7 +23,7 @@ using continuation::Crossing;
 using continuation::StopReason;
 using continuation::Vector;
 
-continuation::Monitor extreme_monitor(const char* kind, Crossing crossing,
+continuation::Monitor extreme_monitor(const results::EventKind& kind, Crossing crossing,
                                       const std::shared_ptr<Observer>& observer) {
   continuation::Monitor monitor{kind,
                                 [observer](const Accepted& now) { return observer->amplitude_slope(now); },
@@ -159,7 +159,7 @@ class Traces {
     auto branch = trace_from(problem, u, way_.from, way_.direction(), way_.options(), result);
     const Vector p = hbm::parameters_at(*problem, omega_);
     add_scene_hint(*way_.model, p, branch);
-    set_end(way_, branch.stop, doubt_of_rounding(*way_.model, p, branch.counts), result);
+    set_end(way_, branch.stop, doubt_of_rounding(*way_.model, p, result.solver), result);
     return branch;
   }
 
@@ -205,7 +205,7 @@ class Traces {
     drop_extrema_of_rounding(course, at, result);
     estimate_bifurcations(result);
     result.solver.unknowns = problem->size();
-    add(branch.counts, result.solver);
+    add(branch, result.solver);
     result.solver.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return branch;
   }

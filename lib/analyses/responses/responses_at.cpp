@@ -220,7 +220,6 @@ class Points {
     result.stop = {reason, settings_.frequency, 0, message};
     result.parameters = description.parameters;
     result.harmonics = description.harmonics;
-    result.solver = description.solver;
     return result;
   }
 
@@ -232,7 +231,7 @@ class Points {
     const auto branch = observe_one(problem, u, omega_, observer, point);
     PointResponse result = ended(Status::complete, reasons::solved, "the response was found " + place());
     result.solver.unknowns = problem->size();
-    add(branch.counts, result.solver);
+    add(branch, result.solver);
     if (!point) {
       result.status = Status::failed;
       result.stop.reason = reason_of(branch.stop.reason);

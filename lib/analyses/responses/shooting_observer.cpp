@@ -112,7 +112,7 @@ const std::vector<std::complex<double>>& ShootingObserver::multipliers(const Acc
 std::vector<continuation::Monitor> shooting_monitors(const std::shared_ptr<ShootingObserver>& observer,
                                                      const StabilityRequest& watched) {
   using continuation::Crossing;
-  const auto extreme = [&](const char* kind, Crossing crossing) {
+  const auto extreme = [&](const results::EventKind& kind, Crossing crossing) {
     return continuation::Monitor{
         kind, [observer](const Accepted& now) { return observer->amplitude_slope(now); }, crossing,
         [observer](const Accepted&) { return observer->last_amplitude(); }};

@@ -116,7 +116,7 @@ class Shooting {
         continuation::trace(problem, {time::stacked(first.start), p, path_.free, direction}, path_.options,
                             shooting_monitors(observer, stability_), record);
     if (!path_.over.empty()) drop_extrema_of_rounding(course, at, result_);
-    add(branch.counts, result_.solver);
+    add(branch, result_.solver);
     path_.set_end(branch.stop, result_);
   }
 

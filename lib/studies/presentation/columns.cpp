@@ -192,8 +192,8 @@ namespace {
 using UnstablePart = std::pair<const ResponsePoint*, const ResponsePoint*>;  // its ends
 
 bool is_limit(const observables::ResponseEvent& event) {
-  const auto& kinds = observables::event_kinds::limits_of_stability;
-  return event.point.stability && std::find(kinds.begin(), kinds.end(), event.kind) != kinds.end();
+  namespace event_kinds = observables::event_kinds;
+  return event.point.stability && event_kinds::contains(event_kinds::limits_of_stability, event.kind);
 }
 
 /// Between events where there are any: also where two of them have no point between them.

@@ -1,7 +1,7 @@
 #include <arcslip/studies/presentation/figures.hpp>
 
-#include <arcslip/analyses/curves/special_curve_results.hpp>
 #include <arcslip/observables/quantities.hpp>
+#include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/presentation/contact_figures.hpp>
 #include <arcslip/studies/presentation/units.hpp>
@@ -164,16 +164,6 @@ std::size_t amplitude_column(BranchKind kind) {
   return kind == BranchKind::modes ? 0 : frequency_column(kind) + 1;
 }
 
-namespace {
-
-/// "1:3" of a resonance; others have the label of their line.
-std::string label_of_mark(const std::string& kind) {
-  const std::string resonance = "resonance_1_";
-  return kind.starts_with(resonance) ? "1:" + kind.substr(resonance.size()) : "";
-}
-
-}  // namespace
-
 FigureLine line_of(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {
   return {.label = set_label(scene, set), .heading = assignment(scene, set), .set = set};
 }
@@ -226,10 +216,9 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
       for (const observables::ResponseEvent& event : branch->events) {
         if (event.kind == branch->of) continue;  // an end of the curve
         line.unbounded = line.unbounded || event.point.unbounded;
-        if (std::find(results::mark_kinds.begin(), results::mark_kinds.end(), event.kind) !=
-            results::mark_kinds.end())
-          line.marks.push_back(
-              {event.kind, record(scene, kind, shares, event.point), label_of_mark(event.kind)});
+        const results::EventKind of = observables::event_kinds::kind_named(event.kind);
+        if (of.mark.shape != results::Shape::none)
+          line.marks.push_back({of, record(scene, kind, shares, event.point)});
       }
       for (const ResponsePoint& point : branch->points) line.unbounded = line.unbounded || point.unbounded;
       add_parts(
@@ -253,7 +242,7 @@ namespace {
 FigureLine line_of_branch(const scene::Scene& scene, const ResponseBranch& branch) {
   FigureLine line = line_of(scene, branch.set);
   if (branch.of.empty()) return line;
-  const std::string kind = observables::words_of(branch.of);
+  const std::string kind = observables::event_kinds::words_of(branch.of);
   for (std::string* text : {&line.label, &line.heading}) *text = kind + (text->empty() ? "" : ", " + *text);
   return line;
 }

@@ -295,6 +295,24 @@ TEST_CASE("peaks over a parameter are drawn as amplitude, frequency, and amplitu
   }
 }
 
+TEST_CASE("marks of a user's own kind of events follow those of the table, with their words in the key") {
+  const TemporaryFolder folder;
+  auto data = studies::figures_of(support::scene(), BranchKind::responses, std::vector{support::branch()});
+  results::FigureLine& line = data.lines[0];
+  REQUIRE(line.marks.size() == 1);
+  const results::EventKind lift_off{
+      .name = "lift_off", .words = "first lift-off", .mark = {results::Shape::star, 0.5, 2.5}};
+  line.marks.insert(line.marks.begin(), {lift_off, line.parts[0][0]});
+  output::draw_figures(data, folder.path(), "x");
+  const std::string script = content(folder / "x.gp");
+  const auto peak =
+      script.find(" with points pointtype 7 pointsize 0.8 linecolor rgb '#444444' title 'resonance peak'");
+  const auto own = script.find(
+      " with points pointtype 3 pointsize 0.5 linewidth 2.5 linecolor rgb '#444444' title 'first lift-off'");
+  CHECK(peak < own);
+  CHECK(own != std::string::npos);
+}
+
 TEST_CASE("bands lie behind the curve over the parameter, named in the key, and not over the stick share") {
   const TemporaryFolder folder;
   auto data = studies::figures_of(support::scene(), BranchKind::peaks, std::vector{support::peaks()});

@@ -72,6 +72,7 @@ TEST_CASE("a mass whose mean only friction would hold is named, and what would h
   CHECK(branches[0].status == observables::Status::failed);
   CHECK(branches[0].stop.reason == observables::reasons::start_failed);
   CHECK(branches[0].stop.value == 10);
+  CHECK(branches[0].solver.linear_solver.empty());
   CHECK(says(branches[0], "no spring holds the mean position of \"b\""));
   CHECK(says(branches[0], "add a spring between it and the ground"));
 }

@@ -36,6 +36,7 @@ TEST_CASE("both folds of the Duffing oscillator lie on one curve over the force,
   CHECK(std::abs(curve.points.back().omega - 1.157717746) < 1e-9);
   CHECK(curve.points.front().over == 0.1);
   CHECK(curve.points.back().over == 0.1);
+  CHECK(curve.solver.linear_solver == "block elimination in the branch's factors");
   REQUIRE(curve.events.size() == 1);
   CHECK(curve.events[0].kind == "cusp");
   CHECK(std::abs(curve.events[0].point.omega - 1.090345535) < 1e-9);

@@ -31,6 +31,7 @@ TEST_CASE("both folds of the Duffing oscillator of NLvib example 01 are found to
   const auto branches = observables::frequency_response(s, scenes::window(s));
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::complete);
+  CHECK(branches[0].solver.linear_solver == "dense LU");
   const auto found = folds(branches[0]);
   REQUIRE(found.size() == 2);
   CHECK(reference::error(found[0].point.omega, 1.269601955546) < 1e-9);
