@@ -7,6 +7,7 @@
 #include <arcslip/results/version.hpp>
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/format/json_schema.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -31,7 +32,7 @@ struct Verb {
 /// The keys "from" and "to" of a kind with a frequency range.
 std::vector<scene::Key> range_keys(const scene::Catalogue& catalogue) {
   std::vector<scene::Key> keys;
-  for (const scene::StudyType* type : catalogue.studies) {
+  for (const auto& type : catalogue.studies) {
     for (const scene::Key& key : type->keys()) {
       const bool is_end = key.name == "from" || key.name == "to";
       if (keys.size() < 2 && key.type == scene::KeyType::frequency && is_end) keys.push_back(key);
@@ -42,8 +43,8 @@ std::vector<scene::Key> range_keys(const scene::Catalogue& catalogue) {
 
 std::vector<Verb> verbs_of(const scene::Catalogue& catalogue) {
   std::vector<Verb> verbs{{run_verb, "run every study of the scene: results and figures"}};
-  for (const scene::StudyType* type : catalogue.studies)
-    verbs.push_back({std::string(type->verb()), std::string(type->help()), type});
+  for (const auto& type : catalogue.studies)
+    verbs.push_back({std::string(type->verb()), std::string(type->help()), type.get()});
   for (scene::Key key : range_keys(catalogue)) {
     key.help += " of frequency responses";
     verbs.front().keys.push_back({key});
@@ -107,7 +108,7 @@ void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts&
                   "write results as CSV to a file, with events and a summary next to it (a.events.csv, "
                   "a.summary.csv), or - for standard output")
       ->type_name("FILE|-");
-  if (of.type == nullptr || of.type->takes_coefficients()) {
+  if (of.type == nullptr || studies::kind_of(*of.type).takes_coefficients()) {
     verb.add_flag("--coefficients", options.coefficients,
                   "include the Fourier coefficients of each response in JSON");
   }

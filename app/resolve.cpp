@@ -48,7 +48,7 @@ using scene::file::Node;
 /// The keys of a study's settings, as in the scene file.
 Node::Object own_keys(const scene::Scene& scene, const scene::Study& study) {
   Node::Object keys;
-  study.type->write(study.settings, scene, keys);
+  study.type->settings().write(study.settings, scene, keys);
   return keys;
 }
 
@@ -243,7 +243,7 @@ scene::Study new_study(const scene::Scene& scene, const CommandOptions& options)
   while (std::any_of(scene.studies.begin(), scene.studies.end(),
                      [&](const scene::Study& other) { return other.name == name; }))
     name += "_2";
-  return {name, options.type, options.type->defaults(), {}};
+  return {name, options.type, options.type->settings().defaults(), {}};
 }
 
 /// Throws if scene and options together do not define the study. is_new: the scene has no study of this kind;

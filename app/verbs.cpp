@@ -21,6 +21,7 @@
 #include <arcslip/scene/files/manifest.hpp>
 #include <arcslip/studies/highest_harmonic.hpp>
 #include <arcslip/studies/presentation/columns.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -64,7 +65,9 @@ std::optional<ResultsFolder> prepare_places(const CommandOptions& options, const
 /// Throws if one table would have to hold results of different kinds.
 void check_one_table(const CommandOptions& options, const scene::Scene& scene,
                      const std::vector<scene::Study>& studies) {
-  const auto list = [&](const scene::Study& study) { return study.type->schema(scene, study, {}).list; };
+  const auto list = [&](const scene::Study& study) {
+    return studies::kind_of(*study.type).schema(scene, study, {}).list;
+  };
   for (const scene::Study& study : studies) {
     if (!options.csv.empty() && list(study) != list(studies.front())) {
       throw UsageError("--csv holds one table, but the results of the studies \"" + studies.front().name +
@@ -115,7 +118,7 @@ void tell_not_drawn(const scene::Study& study, const std::vector<results::Figure
 
 /// Runs a study into a sink with a progress line. Returns its figures.
 std::vector<results::FigureData> compute_visibly(const scene::Scene& scene, const scene::Study& study,
-                                                 scene::RunOptions how, const CommandOptions& options,
+                                                 studies::RunOptions how, const CommandOptions& options,
                                                  results::Sink& sink, Interruption& interruption) {
   ProgressLine line(options.quiet, std::string(scene::unit_name(scene.frequency_unit)));
   how.progress = [&](const results::Progress& now) {
@@ -127,7 +130,7 @@ std::vector<results::FigureData> compute_visibly(const scene::Scene& scene, cons
     tell_partial(interruption);
     return false;
   };
-  std::vector<results::FigureData> figures = study.type->run(scene, study, how, 0, sink);
+  std::vector<results::FigureData> figures = studies::kind_of(*study.type).run(scene, study, how, 0, sink);
   line.clear();
   tell_partial(interruption);
   return figures;
@@ -213,11 +216,12 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
 
   const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const scene::RunOptions how{
+  const studies::RunOptions how{
       has_files, options.coefficients, !options.out.empty(), {}, options.threads.value_or(processors)};
   const results::Header header = studies::header(scene);
   std::vector<results::Schema> schemas;
-  for (const scene::Study& study : studies) schemas.push_back(study.type->schema(scene, study, how));
+  for (const scene::Study& study : studies)
+    schemas.push_back(studies::kind_of(*study.type).schema(scene, study, how));
   // Files are written as results arrive; outputs that may block on a reader, or that have to sort several
   // lists, are written at the end.
   std::vector<File> common = common_files(options, schemas);

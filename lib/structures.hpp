@@ -50,5 +50,5 @@
 #include <arcslip/studies/presentation/columns.hpp>
 #include <arcslip/studies/presentation/figures.hpp>
 #include <arcslip/studies/presentation/units.hpp>
-#include <arcslip/studies/study_of.hpp>
+#include <arcslip/studies/study_kind.hpp>
 #include <arcslip/time/periodic/shooting.hpp>

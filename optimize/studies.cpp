@@ -4,7 +4,7 @@
 #include <arcslip/optimize/study/optimum_results.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/optimize/study/read_settings.hpp>
-#include <arcslip/studies/study_of.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <algorithm>
 #include <array>
@@ -265,48 +265,36 @@ studies::Truncation truncation_of(std::span<const OptimumResult> optima) {
   return found;
 }
 
-class OptimumStudy : public KeyedStudy<OptimumSettings> {
- public:
-  using KeyedStudy::KeyedStudy;
-  std::string_view name() const override { return "optimum"; }
-  std::string_view verb() const override { return "optimize"; }
-  std::string_view help() const override { return "the parameters that minimize the highest resonance peak"; }
-  bool takes_coefficients() const override { return false; }
-  results::Schema schema(const scene::Scene& scene, const scene::Study& study,
-                         const scene::RunOptions& /*options*/) const override {
-    const OptimumSettings settings = with_places(scene, study.settings.as<OptimumSettings>());
-    check_limits(scene, settings.problem);  // before the first study of a run
-    return studies::with_set(scene, study,
-                             settings.along
-                                 ? described_curves(scene, settings.problem, settings.along->name).schema
-                                 : described_optima(scene, settings.problem).schema);
-  }
-  std::vector<results::FigureData> run(const scene::Scene& scene, const scene::Study& study,
-                                       const scene::RunOptions& options, std::size_t schema,
-                                       results::Sink& sink) const override {
-    const OptimumSettings settings = with_places(scene, study.settings.as<OptimumSettings>());
-    if (settings.along) {
-      studies::ComputationOf<OptimumCurveResult> curves(
-          described_curves(scene, settings.problem, settings.along->name),
-          [&](const studies::Case& at, const results::ProgressCallback& progress) {
-            return std::vector{optimum_curve_study(at.scene, settings, progress)};
-          },
-          [&](std::span<const OptimumCurveResult> all) { return std::vector{figures_of(scene, all)}; });
-      curves.truncation_of_items = [](std::span<const OptimumCurveResult> all) { return truncation_of(all); };
-      return studies::run_computation(scene, study, options, schema, sink, curves);
-    }
-    studies::ComputationOf<OptimumResult> optima(
-        described_optima(scene, settings.problem),
-        [&](const studies::Case& at, const results::ProgressCallback& progress) {
-          return std::vector{optimum_study(
-              at.scene, settings, progress,
-              {.curves = options.figures, .alone = at.alone, .threads = at.alone ? options.threads : 1})};
-        },
-        [&](std::span<const OptimumResult> all) { return figures_of(scene, all); });
-    optima.truncation_of_items = [](std::span<const OptimumResult> all) { return truncation_of(all); };
-    return studies::run_computation(scene, study, options, schema, sink, optima);
-  }
-};
+std::unique_ptr<studies::Computation> computed_curve(const scene::Scene& scene,
+                                                     const OptimumSettings& settings) {
+  auto of = std::make_unique<studies::ComputationOf<OptimumCurveResult>>(
+      described_curves(scene, settings.problem, settings.along->name),
+      [settings](const studies::Case& at, const results::ProgressCallback& progress) {
+        return std::vector{optimum_curve_study(at.scene, settings, progress)};
+      },
+      [&scene](std::span<const OptimumCurveResult> all) { return std::vector{figures_of(scene, all)}; });
+  of->truncation_of_items = [](std::span<const OptimumCurveResult> all) { return truncation_of(all); };
+  return of;
+}
+
+std::unique_ptr<studies::Computation> computed_optimum(const scene::Scene& scene,
+                                                       const OptimumSettings& given,
+                                                       const studies::RunOptions& options) {
+  const OptimumSettings settings = with_places(scene, given);
+  check_limits(scene, settings.problem);  // before the first study of a run
+  if (settings.along) return computed_curve(scene, settings);
+  auto of = std::make_unique<studies::ComputationOf<OptimumResult>>(
+      described_optima(scene, settings.problem),
+      [settings, curves = options.figures, threads = options.threads](
+          const studies::Case& at, const results::ProgressCallback& progress) {
+        return std::vector{
+            optimum_study(at.scene, settings, progress,
+                          {.curves = curves, .alone = at.alone, .threads = at.alone ? threads : 1})};
+      },
+      [&scene](std::span<const OptimumResult> all) { return figures_of(scene, all); });
+  of->truncation_of_items = [](std::span<const OptimumResult> all) { return truncation_of(all); };
+  return of;
+}
 
 }  // namespace
 
@@ -325,13 +313,17 @@ std::vector<ParameterUse> taken(const OptimumProblem& problem) {
   return all;
 }
 
-const scene::StudyType& optimum_type() {
-  static const OptimumStudy type(keys());
-  return type;
+const studies::StudyKind& optimum_type() {
+  static const studies::StudyKind kind({.name = "optimum",
+                                        .help = "the parameters that minimize the highest resonance peak",
+                                        .verb = "optimize",
+                                        .coefficients = false},
+                                       keys(), computed_optimum);
+  return kind;
 }
 
 void add_studies(scene::Catalogue& catalogue) {
-  catalogue.studies.push_back(&optimum_type());
+  catalogue.studies.push_back(scene::lasting<scene::StudyType>(optimum_type()));
 }
 
 }  // namespace arcslip::optimize

@@ -4,13 +4,13 @@
 //   scene::Catalogue catalogue = studies::catalogue();
 //   optimize::add_studies(catalogue);
 
-#include <arcslip/scene/study_type.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 namespace arcslip::optimize {
 
-const scene::StudyType& optimum_type();  // settings: OptimumSettings
+const studies::StudyKind& optimum_type();  // settings: OptimumSettings
 
-/// Adds them to a catalogue. They outlive all scenes.
+/// Adds them to a catalogue.
 void add_studies(scene::Catalogue& catalogue);
 
 }  // namespace arcslip::optimize

@@ -8,10 +8,9 @@
 
 int main(int argc, char** argv) {
   using namespace arcslip;
-  const Rub rub;
   scene::Catalogue catalogue = studies::catalogue();
   optimize::add_studies(catalogue);
-  catalogue.elements.push_back(&rub);
+  catalogue.elements.push_back(std::make_shared<Rub>());
 
   if (argc < 2) return 1;
   const scene::Scene scene = scene::read_file(argv[1], catalogue);

@@ -3,7 +3,7 @@
 //
 //   class Hardening final : public elements::PlainLaw { ... };
 //   scene::Catalogue catalogue = studies::catalogue();
-//   catalogue.elements.push_back(&hardening);
+//   catalogue.elements.push_back(std::make_shared<Hardening>());
 //   const auto scene = scene::read_file("scene.json", catalogue);
 //
 // A law acts on the displacements q_1 ... q_d along its directions, q_i = d_i . x, with the force f(q), N,

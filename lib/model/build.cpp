@@ -74,6 +74,7 @@ class Builder {
     model_.harmonics = {scene_.harmonics.order, !even && model_.antisymmetric, scene_.harmonics.period};
     model_.settings = scene_.harmonics;
     model_.threads = scene_.threads.count;
+    model_.catalogue = scene_.catalogue.all;
     return std::move(model_);
   }
 

@@ -200,7 +200,8 @@ struct Model {
   Eigen::VectorXd response;       // the direction of the amplitude
   std::vector<Direction> others;  // further ones: then the amplitude is the largest along all of them
   bool absolute = false;          // these are displacements with that of the ground, not relative to it
-  std::vector<NamedResponse> named_responses;  // of the scene
+  std::vector<NamedResponse> named_responses;         // of the scene
+  std::shared_ptr<const scene::Catalogue> catalogue;  // of the scene: it owns the laws of the elements
   elements::Harmonics harmonics;  // odd only, where no even one is excited and all laws are antisymmetric
   bool antisymmetric = true;      // all laws are
   scene::Harmonics settings;

@@ -43,7 +43,8 @@ std::vector<NamedFile*> files(Scene& scene) {
   for (Part& part : scene.elements) add(part.type, part.options);
   for (Part& patch : scene.patches) add(patch.type, patch.options);
   for (Part& part : scene.excitation) add(part.type, part.options);
-  for (Study& study : scene.studies) add(study.type, study.settings);
+  for (Study& study : scene.studies)
+    if (study.type != nullptr) add(&study.type->settings(), study.settings);
   return all;
 }
 

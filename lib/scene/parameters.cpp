@@ -105,7 +105,7 @@ void set(Scene& scene, std::string_view parameter, double value) {
 void drop(Study& study, std::string_view parameter) {
   std::erase_if(study.for_each, [&](const auto& list) { return list.first == parameter; });
   study.in_rows = study.in_rows && !study.for_each.empty();
-  study.type->drop(parameter, study.settings);
+  study.type->settings().drop(parameter, study.settings);
 }
 
 }  // namespace arcslip::scene

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <iosfwd>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -108,6 +109,13 @@ struct Threads {
   friend bool operator==(const Threads&, const Threads&) { return true; }
 };
 
+/// The types of the parts and studies, whose ownership scenes share. Not of the file, and not compared. None
+/// in scenes made in code: their types have to outlive them.
+struct SharedCatalogue {
+  std::shared_ptr<const Catalogue> all{};
+  friend bool operator==(const SharedCatalogue&, const SharedCatalogue&) { return true; }
+};
+
 struct Scene {
   std::string title;
   std::vector<std::pair<std::string, std::string>> labels{};  // of axes in figures, by parameter or quantity
@@ -126,6 +134,7 @@ struct Scene {
   std::vector<Study> studies;
   Folder folder{};    // of its file
   Threads threads{};  // that may be used
+  SharedCatalogue catalogue{};
 
   const Direction& response() const { return responses.front().direction; }
   Direction& response() { return responses.front().direction; }

@@ -1,15 +1,15 @@
 #pragma once
-// A kind of study: its keys in a scene file and its computation. Kinds and laws of force are listed in a
-// Catalogue, which is passed to the reader of a scene; reader, writer and command depend on no specific kind.
+// A kind of study as scene files have it: its name and its keys. What it computes stands in
+// studies/study_kind.hpp. Kinds and laws of force are listed in a Catalogue, which is passed to the reader of
+// a scene; reader, writer and command depend on no specific kind.
 
-#include <arcslip/control/progress.hpp>
-#include <arcslip/results/figure.hpp>
-#include <arcslip/results/result.hpp>
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/scene.hpp>
 
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace arcslip::scene {
@@ -19,59 +19,59 @@ struct ParameterUse {
   std::string parameter, how;
 };
 
-/// Options for the extent of the results.
-struct RunOptions {
-  bool points = true;         // false: only events and facts, no rows of points and histories
-  bool coefficients = false;  // points and events with the Fourier coefficients a_n, b_n of the response
-  bool figures = false;
-  results::ProgressCallback progress{};  // false stops; the results so far are kept
-  // For combinations of for_each, or load cases of one optimum, that are computed at the same time; where
-  // there are fewer of these, for the elements of each response. Results are those of one thread. progress is
-  // then called by several threads, one at a time.
-  int threads = 1;
-};
-
-class StudyType {
+/// The keys of settings, whose type only file::KeysOf (scene/keys/study_keys.hpp) knows. Settings that are
+/// empty have the defaults.
+class SettingsKeys {
  public:
-  virtual ~StudyType() = default;
+  virtual ~SettingsKeys() = default;
 
-  virtual std::string_view name() const = 0;  // "frf", as a scene file writes it
-  virtual std::string_view verb() const { return name(); }
-  virtual std::string_view help() const = 0;  // one line
-
-  /// The keys between "kind" and "for_each", in the order of a file.
-  virtual std::vector<Key> keys() const = 0;
+  virtual std::vector<Key> keys() const = 0;  // in the order of a file
   virtual Settings defaults() const = 0;
   virtual Settings read(const file::Reading& from) const = 0;
   /// Files named by the settings.
-  virtual std::vector<NamedFile*> files(Settings&) const { return {}; }
+  virtual std::vector<NamedFile*> files(Settings& settings) const = 0;
   virtual void write(const Settings& settings, const Scene& scene, std::vector<file::Member>& to) const = 0;
 
   virtual std::vector<ParameterUse> taken(const Settings& settings) const = 0;
   /// Removes a parameter from lists of values; the continuation parameter cannot be removed.
   virtual void drop(std::string_view parameter, Settings& settings) const = 0;
-
-  /// The structure of all results of the study.
-  virtual results::Schema schema(const Scene& scene, const Study& study, const RunOptions& options) const = 0;
-  /// Whether RunOptions::coefficients changes the results.
-  virtual bool takes_coefficients() const = 0;
-  /// Passes the results to the sink as they are computed, with the index of their schema in the sink: one
-  /// after the other for each combination of the study's for_each lists, each independent of the others.
-  /// Returns the requested figures, each with a unique name; a figure may be empty.
-  virtual std::vector<results::FigureData> run(const Scene& scene, const Study& study,
-                                               const RunOptions& options, std::size_t schema,
-                                               results::Sink& sink) const = 0;
 };
 
-/// The laws of force of the section "elements" and the kinds of studies known to a reader. They must outlive
-/// every scene.
+class StudyType {
+ public:
+  /// name: "frf", as a scene file writes it; verb: of the command, if it is not the name; help: one line;
+  /// keys: those between "kind" and "for_each".
+  StudyType(std::string_view name, std::string_view verb, std::string_view help,
+            std::shared_ptr<const SettingsKeys> keys)
+      : name_(name), verb_(verb.empty() ? name : verb), help_(help), keys_(std::move(keys)) {}
+  virtual ~StudyType() = default;
+
+  std::string_view name() const { return name_; }
+  std::string_view verb() const { return verb_; }
+  std::string_view help() const { return help_; }
+  std::vector<Key> keys() const { return keys_->keys(); }
+  const SettingsKeys& settings() const { return *keys_; }
+
+ private:
+  std::string_view name_, verb_, help_;
+  std::shared_ptr<const SettingsKeys> keys_;
+};
+
+/// The laws of force of the section "elements" and the kinds of studies known to a reader. Scenes share the
+/// ownership of theirs.
 struct Catalogue {
-  std::vector<const PartType*> elements;
-  std::vector<const StudyType*> studies;
+  std::vector<std::shared_ptr<const PartType>> elements;
+  std::vector<std::shared_ptr<const StudyType>> studies;
 
   /// The law or the kind with that name, or null.
   const PartType* element(std::string_view name) const;
   const StudyType* study(std::string_view name) const;
 };
+
+/// Returns a type for a catalogue that lives as long as the program, as those of Arcslip do.
+template <class Type>
+std::shared_ptr<const Type> lasting(const Type& type) {
+  return {std::shared_ptr<const void>(), &type};
+}
 
 }  // namespace arcslip::scene

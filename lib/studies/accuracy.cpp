@@ -4,7 +4,7 @@
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/presentation/figures.hpp>
-#include <arcslip/studies/study_of.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +68,7 @@ results::TableOf<Trial> table(const scene::Scene& scene) {
 }
 
 Described<Accuracy> described_accuracy(const scene::Scene& scene, const AccuracySettings&,
-                                       const scene::RunOptions&) {
+                                       const RunOptions&) {
   const auto trials = std::make_shared<const results::TableOf<Trial>>(table(scene));
   results::Schema schema{.format = "arcslip-accuracy-1",
                          .list = "comparisons",
@@ -151,22 +151,25 @@ std::vector<results::FigureData> accuracy_figures(const scene::Scene& scene, std
   return {data};
 }
 
+std::unique_ptr<Computation> computed_accuracy(const scene::Scene& scene, const AccuracySettings& settings,
+                                               const RunOptions& options) {
+  return std::make_unique<ComputationOf<Accuracy>>(
+      described_accuracy(scene, settings, options),
+      [&settings](const Case& at, const results::ProgressCallback& progress) {
+        return std::vector{observables::accuracy(at.scene, settings, progress)};
+      },
+      [&scene](std::span<const Accuracy> all) { return accuracy_figures(scene, all); });
+}
+
 }  // namespace
 
-const scene::StudyType& accuracy() {
-  static const StudyOf<AccuracySettings, Accuracy> type(
-      {.name = "accuracy",
-       .help = "time and error of the ways to compute a frequency response",
-       .keys = keys_of_accuracy(),
-       .compute =
-           [](const Case& at, const AccuracySettings& settings, const results::ProgressCallback& progress) {
-             return std::vector{observables::accuracy(at.scene, settings, progress)};
-           },
-       .results = described_accuracy,
-       .figures = accuracy_figures,
-       .coefficients = false,
-       .timed = true});
-  return type;
+const StudyKind& accuracy() {
+  static const StudyKind kind({.name = "accuracy",
+                               .help = "time and error of the ways to compute a frequency response",
+                               .coefficients = false,
+                               .timed = true},
+                              keys_of_accuracy(), computed_accuracy);
+  return kind;
 }
 
 }  // namespace arcslip::studies

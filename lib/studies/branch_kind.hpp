@@ -2,58 +2,77 @@
 // The kinds of studies that trace branches of responses; they differ in their keys and in the curves
 // they trace.
 
+#include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/analyses/responses/parameter_response.hpp>
 #include <arcslip/studies/presentation/branches.hpp>
 #include <arcslip/studies/presentation/figures.hpp>
-#include <arcslip/studies/study_of.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
+#include <memory>
 #include <optional>
 #include <span>
-#include <string>
-#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace arcslip::studies {
 
+/// What the results of a study of branches have, besides what its scene and its options decide.
+template <class Range>
+Asked asked_for(BranchKind drawn, const scene::Scene& scene, const Range& range) {
+  Asked asked;
+  if constexpr (requires { range.over; }) asked.over = range.over;
+  asked.maxima =
+      drawn == BranchKind::peaks || drawn == BranchKind::folds || drawn == BranchKind::bifurcations;
+  asked.mode = drawn == BranchKind::modes;
+  asked.stability = drawn == BranchKind::bifurcations;
+  asked.located = drawn == BranchKind::peaks || drawn == BranchKind::folds;
+  if constexpr (requires { range.resonance; })
+    asked.located = asked.located && range.resonance == decltype(range.resonance)::amplitude;
+  if constexpr (requires { range.stability; }) asked.stability = range.stability;
+  if constexpr (requires { range.method; })  // of those that may have been refined in parts
+    asked.order = scene.harmonics.accuracy > 0 && range.method != decltype(range.method)::shooting;
+  if constexpr (requires { range.branches; }) {
+    asked.leaving = range.branches == decltype(range.branches)::all;
+    asked.stability = asked.stability || asked.leaving;
+  }
+  return asked;
+}
+
+/// Whether the accuracy of the branches depends on the harmonics.
+template <class Range>
+bool has_harmonics(const Range& range) {
+  if constexpr (requires { range.method; }) return range.method != decltype(range.method)::shooting;
+  return true;
+}
+
 /// follow(scene, range, progress) returns the branches of one combination, over the parameter range.over, or
-/// over the frequency if the Range has none.
+/// over the frequency if the Range has none. Responses get more harmonics only where they need them.
 template <auto follow, BranchKind drawn, class Range>
-KindOf<Range, observables::ResponseBranch> branch_kind(std::string_view name, std::string_view help,
-                                                       scene::file::KeysOf<Range> keys) {
-  using Branches = std::span<const observables::ResponseBranch>;
-  return {
-      .name = name,
-      .help = help,
-      .keys = std::move(keys),
-      .compute = [](const Case& at, const Range& range,
-                    const results::ProgressCallback& progress) { return follow(at.scene, range, progress); },
-      .results =
-          [](const scene::Scene& scene, const Range& range, const scene::RunOptions& options) {
-            Asked asked;
-            if constexpr (requires { range.over; }) asked.over = range.over;
-            asked.maxima =
-                drawn == BranchKind::peaks || drawn == BranchKind::folds || drawn == BranchKind::bifurcations;
-            asked.mode = drawn == BranchKind::modes;
-            asked.stability = drawn == BranchKind::bifurcations;
-            asked.located = drawn == BranchKind::peaks || drawn == BranchKind::folds;
-            if constexpr (requires { range.resonance; })
-              asked.located = asked.located && range.resonance == decltype(range.resonance)::amplitude;
-            if constexpr (requires { range.stability; }) asked.stability = range.stability;
-            if constexpr (requires { range.method; })  // of those that refined_in_parts() may have made
-              asked.order = scene.harmonics.accuracy > 0 && range.method != decltype(range.method)::shooting;
-            if constexpr (requires { range.branches; }) {
-              asked.leaving = range.branches == decltype(range.branches)::all;
-              asked.stability = asked.stability || asked.leaving;
-            }
-            return branches(scene, asked, options);
-          },
-      .figures = [](const scene::Scene& scene,
-                    Branches branches) { return std::vector{figures_of(scene, drawn, branches)}; },
-      .truncation = [](const Range& range, Branches branches) -> std::optional<Truncation> {
-        if constexpr (requires { range.method; })
-          if (range.method == decltype(range.method)::shooting) return std::nullopt;
-        return truncation_of(branches, drawn != BranchKind::modes);
-      }};
+std::unique_ptr<Computation> computed_branches(const scene::Scene& scene, const Range& range,
+                                               const RunOptions& options) {
+  using observables::ResponseBranch;
+  using Branches = std::span<const ResponseBranch>;
+  auto of = std::make_unique<ComputationOf<ResponseBranch>>(
+      branches(scene, asked_for(drawn, scene, range), options),
+      [&range](const Case& at, const results::ProgressCallback& progress) {
+        return follow(at.scene, range, progress);
+      },
+      [&scene](Branches branches) { return std::vector{figures_of(scene, drawn, branches)}; });
+  if (has_harmonics(range))
+    of->truncation_of_items = [](Branches branches) {
+      return truncation_of(branches, drawn != BranchKind::modes);
+    };
+  if constexpr (std::is_same_v<Range, observables::FrequencyRange> ||
+                std::is_same_v<Range, observables::ParameterRange>)
+    of->refine_items =
+        [&range](const Case& at, Branches coarse, double accuracy,
+                 const results::ProgressCallback& progress) -> std::optional<Refined<ResponseBranch>> {
+      auto refined = observables::refined_response(at.scene, range, coarse, accuracy, progress);
+      if (!refined) return std::nullopt;
+      return Refined<ResponseBranch>{std::move(refined->branches), refined->change};
+    };
+  return of;
 }
 
 }  // namespace arcslip::studies

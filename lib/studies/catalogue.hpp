@@ -7,6 +7,7 @@
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/study_type.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <vector>
 
@@ -19,25 +20,25 @@ std::vector<const scene::PartType*> laws();
 
 namespace arcslip::studies {
 
-const scene::StudyType& frf();           // frequency responses; settings: observables::FrequencyRange
-const scene::StudyType& trace();         // responses over a parameter; observables::ParameterRange
-const scene::StudyType& peaks();         // resonance peaks over a parameter; observables::CurveRange
-const scene::StudyType& folds();         // folds over a parameter; observables::CurveRange
-const scene::StudyType& bifurcations();  // others over a parameter; observables::BifurcationRange
-const scene::StudyType& time();          // time integration; observables::TimeSettings
-const scene::StudyType& point();         // responses at one frequency; observables::PointSettings
-const scene::StudyType& modes();         // nonlinear modes over the amplitude; observables::ModeRange
-const scene::StudyType& sweep();         // a slow sweep of the frequency; observables::SweepSettings
-const scene::StudyType& accuracy();      // time and error of methods; observables::AccuracySettings
+const StudyKind& frf();           // frequency responses; settings: observables::FrequencyRange
+const StudyKind& trace();         // responses over a parameter; observables::ParameterRange
+const StudyKind& peaks();         // resonance peaks over a parameter; observables::CurveRange
+const StudyKind& folds();         // folds over a parameter; observables::CurveRange
+const StudyKind& bifurcations();  // others over a parameter; observables::BifurcationRange
+const StudyKind& time();          // time integration; observables::TimeSettings
+const StudyKind& point();         // responses at one frequency; observables::PointSettings
+const StudyKind& modes();         // nonlinear modes over the amplitude; observables::ModeRange
+const StudyKind& sweep();         // a slow sweep of the frequency; observables::SweepSettings
+const StudyKind& accuracy();      // time and error of methods; observables::AccuracySettings
 
 /// All of them.
 scene::Catalogue catalogue();
 
 /// The results of every study of a scene, which threads may share. A study that ends early is reported with
 /// its reason; exceptions of the callback and of the sink are passed on.
-results::Results run(const scene::Scene& scene, const scene::RunOptions& options = {});
+results::Results run(const scene::Scene& scene, const RunOptions& options = {});
 /// The same, each passed to the sink as soon as it is computed, and not kept; studies with results in the
 /// same list of a document are run consecutively.
-void run(const scene::Scene& scene, const scene::RunOptions& options, results::Sink& sink);
+void run(const scene::Scene& scene, const RunOptions& options, results::Sink& sink);
 
 }  // namespace arcslip::studies

@@ -152,7 +152,7 @@ std::vector<std::unique_ptr<Items>> items_of_each(
 }
 
 std::vector<results::FigureData> run_computation(const scene::Scene& scene, const scene::Study& study,
-                                                 const scene::RunOptions& options, std::size_t schema,
+                                                 const RunOptions& options, std::size_t schema,
                                                  results::Sink& sink, const Computation& computation) {
   std::vector<std::unique_ptr<Items>> kept;
   int taken = 0;

@@ -1,11 +1,12 @@
 #pragma once
 // A study over the combinations of its for_each lists, and over the orders of the harmonics of each.
 
+#include <arcslip/results/figure.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/scene.hpp>
-#include <arcslip/scene/study_type.hpp>
 #include <arcslip/studies/order_selection.hpp>
+#include <arcslip/studies/presentation/run_options.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -45,6 +46,8 @@ class Computation {
   virtual ~Computation() = default;
   /// Of one combination. Several threads may call it at the same time.
   virtual std::unique_ptr<Items> compute(const Case& at, const results::ProgressCallback& progress) const = 0;
+  /// The structure of the results, without the parameters that are set.
+  virtual const results::Schema& schema() const = 0;
   /// Whether the accuracy of the results depends on the harmonics.
   virtual bool has_truncation() const = 0;
   /// What harmonics left out do to the items of a combination, where has_truncation().
@@ -64,14 +67,14 @@ std::vector<std::unique_ptr<Items>> items_of_each(
     const std::function<std::unique_ptr<Items>(const Case&, const results::ProgressCallback&)>& compute,
     const results::ProgressCallback& progress);
 
-/// StudyType::run(): up to options.threads combinations are computed at the same time, with the threads that
+/// StudyKind::run(): up to options.threads combinations are computed at the same time, with the threads that
 /// are left for their elements, and results are handed to the sink in the order of the combinations, by this
 /// thread. After a stop by options.progress no further combination is started, unless all that were are
 /// complete: then the next one is, whose result says that it was stopped. options.progress is called by one
 /// thread at a time, and reported of the first combination that is being computed. Items are kept only if
 /// figures are requested, of up to scene::most_drawn combinations; of more, there is none.
 std::vector<results::FigureData> run_computation(const scene::Scene& scene, const scene::Study& study,
-                                                 const scene::RunOptions& options, std::size_t schema,
+                                                 const RunOptions& options, std::size_t schema,
                                                  results::Sink& sink, const Computation& computation);
 
 }  // namespace arcslip::studies

@@ -54,28 +54,28 @@ scene::file::KeysOf<CurveRange> keys_of_peaks() {
 
 }  // namespace
 
-const scene::StudyType& peaks() {
-  static const StudyOf<CurveRange, observables::ResponseBranch> type(
-      branch_kind<observables::resonance_peaks, BranchKind::peaks>(
-          "peaks", "resonance peaks over a parameter, with their minima and maxima", keys_of_peaks()));
-  return type;
+const StudyKind& peaks() {
+  static const StudyKind kind(
+      {.name = "peaks", .help = "resonance peaks over a parameter, with their minima and maxima"},
+      keys_of_peaks(), computed_branches<observables::resonance_peaks, BranchKind::peaks, CurveRange>);
+  return kind;
 }
 
-const scene::StudyType& folds() {
-  static const StudyOf<CurveRange, observables::ResponseBranch> type(
-      branch_kind<observables::fold_curves, BranchKind::folds>(
-          "folds", "folds of the frequency response over a parameter, with their cusps", keys_of_curves()));
-  return type;
+const StudyKind& folds() {
+  static const StudyKind kind(
+      {.name = "folds", .help = "folds of the frequency response over a parameter, with their cusps"},
+      keys_of_curves(), computed_branches<observables::fold_curves, BranchKind::folds, CurveRange>);
+  return kind;
 }
 
-const scene::StudyType& bifurcations() {
-  static const StudyOf<BifurcationRange, observables::ResponseBranch> type(
-      branch_kind<observables::bifurcation_curves, BranchKind::bifurcations>(
-          "bifurcations",
-          "period doublings, Neimark-Sacker points and breaks of symmetry over a parameter, with their "
-          "resonances",
-          keys_of_bifurcations()));
-  return type;
+const StudyKind& bifurcations() {
+  static const StudyKind kind(
+      {.name = "bifurcations",
+       .help = "period doublings, Neimark-Sacker points and breaks of symmetry over a parameter, with their "
+               "resonances"},
+      keys_of_bifurcations(),
+      computed_branches<observables::bifurcation_curves, BranchKind::bifurcations, BifurcationRange>);
+  return kind;
 }
 
 }  // namespace arcslip::studies

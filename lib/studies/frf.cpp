@@ -3,7 +3,6 @@
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/method_key.hpp>
-#include <arcslip/studies/refined_in_parts.hpp>
 #include <arcslip/studies/stability_keys.hpp>
 
 namespace arcslip::studies {
@@ -33,18 +32,13 @@ scene::file::KeysOf<FrequencyRange> keys_of_frf() {
   return keys;
 }
 
-KindOf<FrequencyRange, observables::ResponseBranch> kind() {
-  auto kind = branch_kind<observables::frequency_response, BranchKind::responses>(
-      "frf", "frequency responses, with their peaks and folds", keys_of_frf());
-  kind.refine = refined_in_parts<FrequencyRange>;
-  return kind;
-}
-
 }  // namespace
 
-const scene::StudyType& frf() {
-  static const StudyOf<FrequencyRange, observables::ResponseBranch> type(kind());
-  return type;
+const StudyKind& frf() {
+  static const StudyKind kind(
+      {.name = "frf", .help = "frequency responses, with their peaks and folds"}, keys_of_frf(),
+      computed_branches<observables::frequency_response, BranchKind::responses, FrequencyRange>);
+  return kind;
 }
 
 }  // namespace arcslip::studies

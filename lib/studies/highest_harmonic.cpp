@@ -12,7 +12,7 @@ namespace {
 // Of its keys; a window is a list.
 double highest_frequency(const Scene& scene, const Study& study) {
   file::Node::Object written;
-  study.type->write(study.settings, scene, written);
+  study.type->settings().write(study.settings, scene, written);
   double highest = 0;
   const auto take = [&](const file::Node& node) {
     if (const double* value = node.get<double>()) highest = std::max(highest, *value);

@@ -30,11 +30,11 @@ scene::file::KeysOf<ModeRange> keys_of_modes() {
 
 }  // namespace
 
-const scene::StudyType& modes() {
-  static const StudyOf<ModeRange, observables::ResponseBranch> type(
-      branch_kind<observables::nonlinear_modes, BranchKind::modes>(
-          "modes", "frequency and damping ratio of a nonlinear mode over its amplitude", keys_of_modes()));
-  return type;
+const StudyKind& modes() {
+  static const StudyKind kind(
+      {.name = "modes", .help = "frequency and damping ratio of a nonlinear mode over its amplitude"},
+      keys_of_modes(), computed_branches<observables::nonlinear_modes, BranchKind::modes, ModeRange>);
+  return kind;
 }
 
 }  // namespace arcslip::studies

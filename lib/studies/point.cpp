@@ -9,7 +9,6 @@
 #include <arcslip/studies/presentation/columns.hpp>
 #include <arcslip/studies/presentation/figures.hpp>
 #include <arcslip/studies/stability_keys.hpp>
-#include <arcslip/studies/study_of.hpp>
 
 #include <array>
 #include <memory>
@@ -87,7 +86,7 @@ results::TableOf<PointInstant> point_history(const scene::Scene& scene) {
   return table;
 }
 
-std::vector<PointInstant> instants(const PointResponse& response, const scene::RunOptions& options) {
+std::vector<PointInstant> instants(const PointResponse& response, const RunOptions& options) {
   std::vector<PointInstant> all;
   for (std::size_t i = 0; options.points && i < response.history.angle.size(); ++i)
     all.push_back({&response.history, i});
@@ -120,7 +119,7 @@ results::Object point_facts(const scene::Scene& scene, const PointResponse& resp
 }
 
 Described<PointResponse> described_point(const scene::Scene& scene, const PointSettings& settings,
-                                         const scene::RunOptions& options) {
+                                         const RunOptions& options) {
   const auto table = std::make_shared<const results::TableOf<PointInstant>>(point_history(scene));
   std::vector<results::Shown> shown{
       {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"},
@@ -178,39 +177,44 @@ observables::Motion motion_of(const scene::Scene& scene, const PointResponse& re
   return motion;
 }
 
+Truncation truncation_of(std::span<const PointResponse> all) {
+  Truncation found;
+  for (const PointResponse& each : all) add(each.status, each.stop, found), add(each.point, found);
+  if (!all.empty()) found.responses = all.front().found;
+  return found;
+}
+
+std::unique_ptr<Computation> computed_points(const scene::Scene& scene, const PointSettings& settings,
+                                             const RunOptions& options) {
+  using All = std::span<const PointResponse>;
+  auto of = std::make_unique<ComputationOf<PointResponse>>(
+      described_point(scene, settings, options),
+      [&settings](const Case& at, const results::ProgressCallback& progress) {
+        return observables::point_responses(at.scene, settings, progress);
+      },
+      [&scene](All all) {
+        std::vector<observables::Motion> motions;
+        for (const PointResponse& each : all) motions.push_back(motion_of(scene, each));
+        return std::vector{figures_of(scene, motions)};
+      });
+  of->truncation_of_items = [](All all) { return truncation_of(all); };
+  of->refine_items = [&settings](const Case& at, All coarse, double /*accuracy*/,
+                                 const results::ProgressCallback& progress) {
+    return std::optional(Refined<PointResponse>{
+        observables::point_responses(at.scene, settings, progress, coarse), observables::no_value});
+  };
+  return of;
+}
+
 }  // namespace
 
-const scene::StudyType& point() {
-  static const StudyOf<PointSettings, PointResponse> type(
+const StudyKind& point() {
+  static const StudyKind kind(
       {.name = "point",
        .help = "the responses at one frequency, with all of their quantities and hysteresis loops",
-       .keys = keys_of_point(),
-       .compute =
-           [](const Case& at, const PointSettings& settings, const results::ProgressCallback& progress) {
-             return observables::point_responses(at.scene, settings, progress);
-           },
-       .results = described_point,
-       .figures =
-           [](const scene::Scene& scene, std::span<const PointResponse> all) {
-             std::vector<observables::Motion> motions;
-             for (const PointResponse& each : all) motions.push_back(motion_of(scene, each));
-             return std::vector{figures_of(scene, motions)};
-           },
-       .coefficients = false,
-       .truncation = [](const PointSettings& /*settings*/,
-                        std::span<const PointResponse> all) -> std::optional<Truncation> {
-         Truncation found;
-         for (const PointResponse& each : all) add(each.status, each.stop, found), add(each.point, found);
-         if (!all.empty()) found.responses = all.front().found;
-         return found;
-       },
-       .refine = [](const Case& at, const PointSettings& settings, std::span<const PointResponse> coarse,
-                    double /*accuracy*/,
-                    const results::ProgressCallback& progress) -> std::optional<Refined<PointResponse>> {
-         return Refined<PointResponse>{observables::point_responses(at.scene, settings, progress, coarse),
-                                       observables::no_value};
-       }});
-  return type;
+       .coefficients = false},
+      keys_of_point(), computed_points);
+  return kind;
 }
 
 }  // namespace arcslip::studies

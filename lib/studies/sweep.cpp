@@ -5,7 +5,7 @@
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/presentation/figures.hpp>
-#include <arcslip/studies/study_of.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <array>
 #include <cmath>
@@ -131,7 +131,7 @@ struct SweepTables {
           return std::isnan(value) ? std::nullopt : std::optional(value);
         });
     jumps.add({"kind"}, "", "`jump`",
-              [](const Jump&) { return std::string(observables::event_kinds::jump); });
+              [](const Jump&) { return std::string(observables::event_kinds::jump.name); });
     jumps.add({"direction"}, "", "of the sweep",
               [](const Jump& at) { return std::string(name(at.sweep->direction)); });
     jumps.add({"omega"}, "rad/s", "last frequency before", [](const Jump& at) { return at.item->omega; });
@@ -183,7 +183,7 @@ std::string other_motions(const scene::Scene& scene, const FrequencySweep& sweep
 }
 
 Described<FrequencySweep> described_sweep(const scene::Scene& scene, const SweepSettings&,
-                                          const scene::RunOptions& options) {
+                                          const RunOptions& options) {
   const auto tables = std::make_shared<const SweepTables>(scene);
   const std::string unit(scene::unit_name(scene.frequency_unit));
   results::Schema schema{
@@ -274,21 +274,25 @@ std::vector<results::FigureData> sweep_figures(const scene::Scene& scene,
   return {data};
 }
 
+std::unique_ptr<Computation> computed_sweeps(const scene::Scene& scene, const SweepSettings& settings,
+                                             const RunOptions& options) {
+  return std::make_unique<ComputationOf<FrequencySweep>>(
+      described_sweep(scene, settings, options),
+      [&settings](const Case& at, const results::ProgressCallback& progress) {
+        return observables::frequency_sweep(at.scene, settings, progress);
+      },
+      [&scene](std::span<const FrequencySweep> sweeps) { return sweep_figures(scene, sweeps); });
+}
+
 }  // namespace
 
-const scene::StudyType& sweep() {
-  static const StudyOf<SweepSettings, FrequencySweep> type(
+const StudyKind& sweep() {
+  static const StudyKind kind(
       {.name = "sweep",
        .help = "the motions that a slow sweep of the frequency up and down follows, with their jumps",
-       .keys = keys_of_sweep(),
-       .compute =
-           [](const Case& at, const SweepSettings& settings, const results::ProgressCallback& progress) {
-             return observables::frequency_sweep(at.scene, settings, progress);
-           },
-       .results = described_sweep,
-       .figures = sweep_figures,
-       .coefficients = false});
-  return type;
+       .coefficients = false},
+      keys_of_sweep(), computed_sweeps);
+  return kind;
 }
 
 }  // namespace arcslip::studies

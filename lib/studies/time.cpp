@@ -2,7 +2,7 @@
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/presentation/figures.hpp>
 #include <arcslip/studies/presentation/motions.hpp>
-#include <arcslip/studies/study_of.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <array>
 #include <limits>
@@ -75,24 +75,26 @@ scene::file::KeysOf<TimeSettings> keys_of_time() {
   return keys;
 }
 
+std::unique_ptr<Computation> computed_motion(const scene::Scene& scene, const TimeSettings& settings,
+                                             const RunOptions& options) {
+  return std::make_unique<ComputationOf<Motion>>(
+      motions(scene, options),
+      [&settings](const Case& at, const results::ProgressCallback& progress) {
+        return std::vector{observables::motion_in_time(at.scene, settings, progress)};
+      },
+      [&scene](std::span<const Motion> motions) { return std::vector{figures_of(scene, motions)}; });
+}
+
 }  // namespace
 
-const scene::StudyType& time() {
-  static const StudyOf<TimeSettings, Motion> type(
+const StudyKind& time() {
+  static const StudyKind kind(
       {.name = "time",
        .help =
            "time integration at one frequency: steady state or transient from rest, with hysteresis loops",
-       .keys = keys_of_time(),
-       .compute =
-           [](const Case& at, const TimeSettings& settings, const results::ProgressCallback& progress) {
-             return std::vector{observables::motion_in_time(at.scene, settings, progress)};
-           },
-       .results = [](const scene::Scene& scene, const TimeSettings&,
-                     const scene::RunOptions& options) { return motions(scene, options); },
-       .figures = [](const scene::Scene& scene,
-                     std::span<const Motion> motions) { return std::vector{figures_of(scene, motions)}; },
-       .coefficients = false});
-  return type;
+       .coefficients = false},
+      keys_of_time(), computed_motion);
+  return kind;
 }
 
 }  // namespace arcslip::studies

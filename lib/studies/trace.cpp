@@ -2,7 +2,6 @@
 #include <arcslip/studies/branch_kind.hpp>
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/method_key.hpp>
-#include <arcslip/studies/refined_in_parts.hpp>
 #include <arcslip/studies/stability_keys.hpp>
 
 namespace arcslip::studies {
@@ -22,15 +21,13 @@ scene::file::KeysOf<ParameterRange> keys_of_trace() {
 
 }  // namespace
 
-const scene::StudyType& trace() {
-  static const StudyOf<ParameterRange, observables::ResponseBranch> type([] {
-    auto kind = branch_kind<observables::parameter_response, BranchKind::over_parameter>(
-        "trace", "responses over a parameter at a fixed frequency, with their extrema and folds",
-        keys_of_trace());
-    kind.refine = refined_in_parts<ParameterRange>;
-    return kind;
-  }());
-  return type;
+const StudyKind& trace() {
+  static const StudyKind kind(
+      {.name = "trace",
+       .help = "responses over a parameter at a fixed frequency, with their extrema and folds"},
+      keys_of_trace(),
+      computed_branches<observables::parameter_response, BranchKind::over_parameter, ParameterRange>);
+  return kind;
 }
 
 }  // namespace arcslip::studies

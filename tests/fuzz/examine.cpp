@@ -18,7 +18,7 @@
 #include <arcslip/results/reasons.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/presentation/branches.hpp>
-#include <arcslip/studies/study_of.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <nlohmann/json.hpp>
 

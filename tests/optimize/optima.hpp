@@ -2,7 +2,7 @@
 // Optima for each combination of lists of values.
 
 #include <arcslip/optimize/study/optimum_study.hpp>
-#include <arcslip/studies/study_of.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <vector>
 

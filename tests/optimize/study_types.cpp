@@ -115,7 +115,7 @@ TEST_CASE("the documentation of scenes has a row for every key of every kind of 
   std::ifstream file(source_folder() + "/docs/scene.md");
   std::stringstream text;
   text << file.rdbuf();
-  for (const scene::StudyType* type : all_kinds().studies) {
+  for (const auto& type : all_kinds().studies) {
     const std::string wanted = key_rows(*type);
     INFO("the table of " << type->name() << " is to be:\n" << wanted);
     CHECK(text.str().find(wanted) != std::string::npos);
@@ -129,7 +129,7 @@ TEST_CASE("the documentation of scenes has a row for every field and option of e
   text << file.rdbuf();
   std::string wanted = part_rows("mass", scene::mass_type()) + part_rows("spring", scene::spring_type()) +
                        part_rows("damper", scene::damper_type());
-  for (const scene::PartType* law : all_kinds().elements)
+  for (const auto& law : all_kinds().elements)
     wanted += part_rows("element of `\"type\": \"" + std::string(law->name()) + "\"`", *law);
   wanted += part_rows("force", scene::force_type());
   INFO("the table of parts is to be:\n" << wanted);
@@ -170,9 +170,9 @@ TEST_CASE("a study is written with the keys of its kind, in their order, and rea
 
 TEST_CASE("defaults of keys are those of the settings") {
   const scene::Scene scene = scene_with_all_kinds();
-  for (const scene::StudyType* type : all_kinds().studies) {
+  for (const auto& type : all_kinds().studies) {
     scene::file::Node::Object keys;
-    type->write(type->defaults(), scene, keys);
+    type->settings().write(type->settings().defaults(), scene, keys);
     for (const scene::Key& key : type->keys()) {
       CAPTURE(type->name(), key.name);
       const auto own =
@@ -229,7 +229,7 @@ TEST_CASE("what a study is over, or gives values to, is reported, and only lists
   const scene::Scene scene = scene_with_all_kinds();
   const auto names = [&](std::size_t i) {
     std::set<std::string> all;
-    for (const scene::ParameterUse& each : scene.studies[i].type->taken(scene.studies[i].settings))
+    for (const scene::ParameterUse& each : scene.studies[i].type->settings().taken(scene.studies[i].settings))
       all.insert(each.parameter);
     return all;
   };
@@ -251,11 +251,11 @@ TEST_CASE("a study that was built without its kind or its settings is a fault, a
   scene::Scene scene = scenes::paper(5, 3);
   scene.studies = {scene::Study{"a"}};
   CHECK_THROWS_WITH(scene::check(scene), "/studies/0: found no kind, must be a study of some kind");
-  for (const scene::StudyType* type : all_kinds().studies) {
-    scene.studies = {scene::Study{"a", type}};
+  for (const auto& type : all_kinds().studies) {
+    scene.studies = {scene::Study{"a", type.get()}};
     CHECK_THROWS_AS(scene::check(scene), scene::SceneError);
     CHECK_NOTHROW(scene::drop(scene.studies[0], "damper.normal_load"));
-    CHECK(type->taken({}).empty());
+    CHECK(type->settings().taken({}).empty());
   }
 }
 
@@ -273,7 +273,7 @@ TEST_CASE("a limit on what no response has is refused before the first study of 
                    "constraints": [{"observable": ")" +
                             observable + R"(", "at_most": 1}]}]})");
     const scene::Scene s = scene::read(text, catalogue);
-    return s.studies[0].type->schema(s, s.studies[0], {}).list;
+    return studies::kind_of(*s.studies[0].type).schema(s, s.studies[0], {}).list;
   };
   CHECK(schema_of("d.energy") == "optima");
   CHECK_THROWS_WITH(

@@ -6,7 +6,7 @@
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/presentation/units.hpp>
-#include <arcslip/studies/study_of.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <algorithm>
 #include <cmath>

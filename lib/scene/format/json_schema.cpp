@@ -426,8 +426,8 @@ Node schema_of(const Catalogue& catalogue) {
   structure.push_back({"damping", list_of(of({{"oneOf", {std::move(dampings)}}}))});
   Node::List elements, excitations, studies;
   for (const PartType* type : excitation_types()) excitations.push_back(part_of(*type, true));
-  for (const PartType* type : catalogue.elements) elements.push_back(part_of(*type, true));
-  for (const StudyType* type : catalogue.studies) studies.push_back(study_of(*type));
+  for (const auto& type : catalogue.elements) elements.push_back(part_of(*type, true));
+  for (const auto& type : catalogue.studies) studies.push_back(study_of(*type));
   Object samples{{"type", node("integer")}, {"default", node(Harmonics{}.samples)}};
   add_bounds(1, false, largest_samples, samples);
   Object order{{"type", node("integer")}};

@@ -208,9 +208,10 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
   scene.damping =
       read_parts(structure.find("damping"), nullptr, damping_types(), dofs, source, names, faults);
   scene.rotation = read_one(structure.find("rotation"), rotation_type(), dofs, source, names, faults);
-  scene.elements =
-      read_parts(root.find("elements"), nullptr, catalogue.elements, dofs, source, names, faults);
-  scene.patches = read_patches(root.find("patches"), catalogue.elements, dofs, source, names, faults);
+  std::vector<const PartType*> laws;
+  for (const auto& law : catalogue.elements) laws.push_back(law.get());
+  scene.elements = read_parts(root.find("elements"), nullptr, laws, dofs, source, names, faults);
+  scene.patches = read_patches(root.find("patches"), laws, dofs, source, names, faults);
   if (is_sound(before_parts)) check_structure(scene, faults);
 
   dofs.have_next = false;
@@ -276,16 +277,16 @@ FileSource source_of(Scene scene) {
   return source;
 }
 
-// What the scene itself has.
+// What the scene itself has, for reading it again: it keeps the types alive meanwhile.
 Catalogue catalogue_of(const Scene& scene) {
   Catalogue catalogue;
-  for (const Part& part : scene.elements)
-    if (catalogue.element(part.type->name()) == nullptr) catalogue.elements.push_back(part.type);
-  for (const Part& patch : scene.patches)
-    if (const PartType* law = patch.options.as<PatchOptions>().law; catalogue.element(law->name()) == nullptr)
-      catalogue.elements.push_back(law);
+  const auto add_law = [&](const PartType* law) {
+    if (catalogue.element(law->name()) == nullptr) catalogue.elements.push_back(lasting(*law));
+  };
+  for (const Part& part : scene.elements) add_law(part.type);
+  for (const Part& patch : scene.patches) add_law(patch.options.as<PatchOptions>().law);
   for (const Study& study : scene.studies)
-    if (catalogue.study(study.type->name()) == nullptr) catalogue.studies.push_back(study.type);
+    if (catalogue.study(study.type->name()) == nullptr) catalogue.studies.push_back(lasting(*study.type));
   return catalogue;
 }
 
@@ -293,7 +294,9 @@ Catalogue catalogue_of(const Scene& scene) {
 }  // namespace file
 
 Scene read(std::istream& in, const Catalogue& catalogue, const std::string& folder) {
-  return file::read_scene(file::read_tree(file::read_text(in)), catalogue, {{folder}, {}});
+  Scene scene = file::read_scene(file::read_tree(file::read_text(in)), catalogue, {{folder}, {}});
+  scene.catalogue.all = std::make_shared<const Catalogue>(catalogue);
+  return scene;
 }
 
 Scene read_file(const std::string& path, const Catalogue& catalogue) {
@@ -303,6 +306,7 @@ Scene read_file(const std::string& path, const Catalogue& catalogue) {
 Scene read_file(const std::string& path, const Catalogue& catalogue, const StopRequest& stop) {
   Scene scene = file::read_scene(file::read_tree(file::read_text(path, stop), stop), catalogue,
                                  {{std::filesystem::path(path).parent_path().string()}, stop});
+  scene.catalogue.all = std::make_shared<const Catalogue>(catalogue);
   const ManifestDoubts doubts = manifest_doubts(scene, path);
   if (!doubts.interrupted.empty()) throw SceneError({{"", doubts.interrupted.front()}});
   return scene;
@@ -338,7 +342,7 @@ void check(const Scene& scene) {
     if (scene.studies[i].type == nullptr)
       faults.add(file::child("/studies", i), "found no kind, must be a study of some kind");
   faults.raise();
-  file::read_scene(file::read_tree(write(scene)), file::catalogue_of(scene), file::source_of(scene));
+  file::read_scene(file::tree(scene), file::catalogue_of(scene), file::source_of(scene));
 }
 
 Scene with_keys(const Scene& scene, std::size_t study, const std::vector<file::Member>& keys) {
@@ -358,8 +362,9 @@ Scene with_keys(const Scene& scene, std::size_t study, const std::vector<file::M
         object.push_back(key);
     }
   }
-  return file::read_scene(file::read_tree(file::print_tree(root)), file::catalogue_of(scene),
-                          file::source_of(scene));
+  Scene changed = file::read_scene(std::move(root), file::catalogue_of(scene), file::source_of(scene));
+  changed.catalogue = scene.catalogue;
+  return changed;
 }
 
 }  // namespace arcslip::scene

@@ -190,7 +190,7 @@ Node for_each_node(const Study& study) {
 
 Node study_node(const Study& study, const Scene& scene) {
   Node::Object object = {{"name", node(study.name)}, {"kind", node(study.type->name())}};
-  study.type->write(study.settings, scene, object);
+  study.type->settings().write(study.settings, scene, object);
   object.push_back({"for_each", for_each_node(study)});
   return {std::move(object)};
 }

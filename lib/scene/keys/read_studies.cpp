@@ -21,7 +21,7 @@ bool is_file_name(const std::string& name) {
 
 std::vector<std::string> names_of(const Catalogue& catalogue) {
   std::vector<std::string> names;
-  for (const StudyType* type : catalogue.studies) names.emplace_back(type->name());
+  for (const auto& type : catalogue.studies) names.emplace_back(type->name());
   return names;
 }
 
@@ -36,7 +36,7 @@ std::vector<std::string> study_keys(const StudyType& type) {
 // Explains to which kinds a key of other kinds belongs.
 std::string kinds_with(std::string_view key, const Catalogue& catalogue) {
   std::vector<std::string> kinds;
-  for (const StudyType* type : catalogue.studies) {
+  for (const auto& type : catalogue.studies) {
     const auto keys = study_keys(*type);
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) kinds.emplace_back(type->name());
   }
@@ -112,8 +112,8 @@ std::vector<Study> read_studies(const Location& place, FrequencyUnit unit, const
       }
       study.name = *text;
     }
-    study.settings = study.type->read({keys, frequency, all, dofs, faults, source});
-    read_for_each(keys.find("for_each"), all, study.type->taken(study.settings), study, faults);
+    study.settings = study.type->settings().read({keys, frequency, all, dofs, faults, source});
+    read_for_each(keys.find("for_each"), all, study.type->settings().taken(study.settings), study, faults);
     studies.push_back(std::move(study));
   }
   std::unordered_map<std::string, int> next;

@@ -225,14 +225,14 @@ KeyGroup<bool> flag(const std::string& name, bool otherwise, std::string help) {
 }  // namespace file
 
 const PartType* Catalogue::element(std::string_view name) const {
-  for (const PartType* type : elements)
-    if (type->name() == name) return type;
+  for (const auto& type : elements)
+    if (type->name() == name) return type.get();
   return nullptr;
 }
 
 const StudyType* Catalogue::study(std::string_view name) const {
-  for (const StudyType* type : studies)
-    if (type->name() == name) return type;
+  for (const auto& type : studies)
+    if (type->name() == name) return type.get();
   return nullptr;
 }
 

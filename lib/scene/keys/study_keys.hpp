@@ -196,45 +196,49 @@ KeyGroup<S> flag(const std::string& name, bool S::*value, std::string help) {
 }
 
 template <class S>
-class KeysOf {
+class KeysOf final : public SettingsKeys {
  public:
   void add(KeyGroup<S> group) { groups_.push_back(std::move(group)); }
   /// A check of several values together, called when all are read.
   void check(std::function<void(const Reading&, S&)> check) { check_ = std::move(check); }
 
-  std::vector<Key> keys() const {
+  std::vector<Key> keys() const override {
     std::vector<Key> all;
     for (const auto& group : groups_) all.insert(all.end(), group.keys.begin(), group.keys.end());
     return all;
   }
-  S read(const Reading& from) const {
+  Settings defaults() const override { return Settings::of(S{}); }
+  Settings read(const Reading& from) const override {
     S settings;
     for (const auto& group : groups_) group.read(from, settings);
     if (check_) check_(from, settings);
-    return settings;
+    return Settings::of(std::move(settings));
   }
-  void write(const S& settings, const Scene& scene, Node::Object& to) const {
-    for (const auto& group : groups_) group.write(settings, scene, to);
+  void write(const Settings& settings, const Scene& scene, Node::Object& to) const override {
+    const S values = values_of(settings);
+    for (const auto& group : groups_) group.write(values, scene, to);
   }
-  std::vector<ParameterUse> taken(const S& settings) const {
+  std::vector<ParameterUse> taken(const Settings& settings) const override {
+    const S values = values_of(settings);
     std::vector<ParameterUse> all;
     for (const auto& group : groups_)
-      if (group.taken) group.taken(settings, all);
+      if (group.taken) group.taken(values, all);
     return all;
   }
-  void drop(std::string_view parameter, S& settings) const {
+  void drop(std::string_view parameter, Settings& settings) const override {
     for (const auto& group : groups_)
-      if (group.drop) group.drop(parameter, settings);
+      if (group.drop && !settings.empty()) group.drop(parameter, settings.as<S>());
   }
-
-  std::vector<NamedFile*> files(S& settings) const {
+  std::vector<NamedFile*> files(Settings& settings) const override {
     std::vector<NamedFile*> all;
     for (const auto& group : groups_)
-      if (group.files) group.files(settings, all);
+      if (group.files && !settings.empty()) group.files(settings.as<S>(), all);
     return all;
   }
 
  private:
+  static S values_of(const Settings& settings) { return settings.empty() ? S{} : settings.as<S>(); }
+
   std::vector<KeyGroup<S>> groups_;
   std::function<void(const Reading&, S&)> check_;
 };
@@ -245,41 +249,14 @@ class KeyedPart : public Base {
  public:
   explicit KeyedPart(KeysOf<S> options) : options_(std::move(options)) {}
   std::vector<Key> options() const override { return options_.keys(); }
-  Settings read_options(const Reading& from) const override { return Settings::of(options_.read(from)); }
+  Settings read_options(const Reading& from) const override { return options_.read(from); }
   void write_options(const Settings& options, const Scene& scene, Node::Object& to) const override {
-    options_.write(options.empty() ? S{} : options.as<S>(), scene, to);
+    options_.write(options, scene, to);
   }
-  std::vector<NamedFile*> files(Settings& options) const override {
-    return options.empty() ? std::vector<NamedFile*>() : options_.files(options.as<S>());
-  }
+  std::vector<NamedFile*> files(Settings& options) const override { return options_.files(options); }
 
  private:
   KeysOf<S> options_;
-};
-
-/// The part of a StudyType that its keys decide.
-template <class S>
-class KeyedStudy : public StudyType {
- public:
-  explicit KeyedStudy(KeysOf<S> keys) : keys_(std::move(keys)) {}
-  std::vector<Key> keys() const override { return keys_.keys(); }
-  Settings defaults() const override { return Settings::of(S{}); }
-  Settings read(const Reading& from) const override { return Settings::of(keys_.read(from)); }
-  void write(const Settings& settings, const Scene& scene, Node::Object& to) const override {
-    keys_.write(settings.empty() ? S{} : settings.as<S>(), scene, to);
-  }
-  std::vector<NamedFile*> files(Settings& settings) const override {
-    return settings.empty() ? std::vector<NamedFile*>() : keys_.files(settings.as<S>());
-  }
-  std::vector<ParameterUse> taken(const Settings& settings) const override {
-    return keys_.taken(settings.empty() ? S{} : settings.as<S>());
-  }
-  void drop(std::string_view parameter, Settings& settings) const override {
-    if (!settings.empty()) keys_.drop(parameter, settings.as<S>());
-  }
-
- private:
-  KeysOf<S> keys_;
 };
 
 }  // namespace arcslip::scene::file

@@ -5,15 +5,13 @@
 #include <arcslip/results/response.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/scene/scene.hpp>
-#include <arcslip/scene/study_type.hpp>
+#include <arcslip/studies/presentation/run_options.hpp>
 #include <arcslip/studies/presentation/units.hpp>
 
 #include <string>
 #include <vector>
 
 namespace arcslip::studies {
-
-using scene::RunOptions;
 
 /// Optional columns of responses.
 struct Asked {

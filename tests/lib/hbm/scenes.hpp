@@ -6,7 +6,7 @@
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/scene/scene.hpp>
-#include <arcslip/studies/study_of.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <numbers>
 #include <sstream>

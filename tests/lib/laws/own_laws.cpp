@@ -14,12 +14,15 @@
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 #include <arcslip/scene/format/json_schema.hpp>
+#include <arcslip/scene/format/scene_file.hpp>
 #include <arcslip/time/newmark/newmark_periods.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
+#include <memory>
 
 using namespace arcslip;
 using continuation::Vector;
@@ -33,7 +36,9 @@ const own_laws::TwoSliders two_sliders;
 
 scene::Catalogue catalogue() {
   auto all = test_catalogue::whole();
-  all.elements.insert(all.elements.end(), {&coupled_spring, &polynomial_type, &table_spring, &two_sliders});
+  for (const scene::PartType* law : std::initializer_list<const scene::PartType*>{
+           &coupled_spring, &polynomial_type, &table_spring, &two_sliders})
+    all.elements.push_back(scene::lasting(*law));
   return all;
 }
 
@@ -71,6 +76,30 @@ void check_jacobian(const scene::Scene& s, double omega, double size, unsigned s
 }
 
 }  // namespace
+
+TEST_CASE(
+    "scenes and models share the laws of a catalogue that is gone, and nothing holds them after these") {
+  std::weak_ptr<const scene::PartType> law;
+  scene::Scene first;
+  {
+    const auto own = std::make_shared<const own_laws::CoupledSpring>();
+    law = own;
+    scene::Catalogue all = test_catalogue::whole();
+    all.elements.push_back(own);
+    std::istringstream in(plane(circular, R"({"at": "x"})"));
+    first = scene::read(in, all);
+  }
+  scene::check(first);
+  scene::Scene second = scene::with_keys(first, 0, {{"to", {1.5}}});
+  CHECK(scenes::window(second).to == 1.5);
+  first = {};
+  auto model = std::make_shared<const model::Model>(model::build(second));
+  second = {};
+  REQUIRE_FALSE(law.expired());
+  CHECK(model->elements[0].law->directions() == 2);
+  model.reset();
+  CHECK(law.expired());
+}
 
 TEST_CASE("a law of two directions follows its closed form: in a circle its stiffness is k a^2") {
   const scene::Scene s = read_with_own_laws(plane(circular, R"({"at": "x"})"));

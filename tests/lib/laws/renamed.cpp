@@ -47,9 +47,9 @@ scene::Scene read_with_names(const json& file, bool other) {
       element.erase("stiffness");
       element.erase("offset");  // an option of the law's own
     }
-  catalogue.elements = {&renamed_jenkins};
+  catalogue.elements = {scene::lasting<scene::PartType>(renamed_jenkins)};
   for (const auto* law : elements::laws())
-    if (law != &elements::jenkins()) catalogue.elements.push_back(law);
+    if (law != &elements::jenkins()) catalogue.elements.push_back(scene::lasting(*law));
   std::istringstream in(changed.dump());
   return scene::read(in, catalogue);
 }
@@ -65,7 +65,7 @@ void drop_times(json& results) {
 
 json run(const scene::Scene& scene) {
   std::ostringstream out;
-  scene::RunOptions options;
+  studies::RunOptions options;
   options.coefficients = true;
   results::write_json(out, studies::run(scene, options));
   return json::parse(out.str());

@@ -166,7 +166,7 @@ TEST_CASE("whenever a study is stopped, its last result says so") {
     for (long last = 1; last < 2 * of_first; last += last < of_first - 3 || last > of_first + 3 ? 7 : 1) {
       CAPTURE(threads, last, of_first);
       long calls = 0;
-      scene::RunOptions options;
+      studies::RunOptions options;
       options.threads = threads;
       options.progress = [&](const results::Progress&) { return ++calls < last; };
       const results::Results all = studies::run(s, options);
@@ -203,10 +203,10 @@ TEST_CASE("axes of figures have the labels of the scene, and the names of quanti
   scene::Scene s = scenes::paper(1);
   const auto figures = [&](scene::Study study) {
     results::Collector collector;
-    scene::RunOptions options;
+    studies::RunOptions options;
     options.figures = true;
-    collector.begin({}, std::vector{study.type->schema(s, study, options)});
-    return study.type->run(s, study, options, 0, collector).at(0);
+    collector.begin({}, std::vector{studies::kind_of(*study.type).schema(s, study, options)});
+    return studies::kind_of(*study.type).run(s, study, options, 0, collector).at(0);
   };
   const scene::Study over_load = {
       "p",
@@ -245,10 +245,10 @@ TEST_CASE("figures are made where they are asked for") {
   const scene::Study study = frf("a", {{"damper.normal_load", {1, 3}}});
   results::Collector collector;
   const auto run = [&](bool figures) {
-    scene::RunOptions options;
+    studies::RunOptions options;
     options.figures = figures;
-    collector.begin({}, std::vector{study.type->schema(s, study, options)});
-    return study.type->run(s, study, options, 0, collector);
+    collector.begin({}, std::vector{studies::kind_of(*study.type).schema(s, study, options)});
+    return studies::kind_of(*study.type).run(s, study, options, 0, collector);
   };
   CHECK(run(false).empty());
   const auto figures = run(true);

@@ -6,7 +6,7 @@
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
 #include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/results/reasons.hpp>
-#include <arcslip/studies/study_of.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <cmath>
 #include <sstream>

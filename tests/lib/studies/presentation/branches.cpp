@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 namespace {
 
 Json branches_json(const scene::Scene& scene, const std::vector<observables::ResponseBranch>& branches,
-                   const scene::RunOptions& options = {}) {
+                   const studies::RunOptions& options = {}) {
   std::ostringstream text;
   results::write_json(text, studies::results_of(scene, branches, options));
   return Json::parse(text.str());

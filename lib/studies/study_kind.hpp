@@ -1,6 +1,6 @@
 #pragma once
-// A kind of study defined by a few functions of its settings S and of the items it computes (branches,
-// motions, optima).
+// A kind of study: its keys (scene/study_type.hpp), and its computation, which a few functions of the items
+// that it computes define (branches, motions, optima).
 
 #include <arcslip/scene/keys/study_keys.hpp>
 #include <arcslip/studies/computation.hpp>
@@ -64,15 +64,6 @@ std::vector<Item> for_each(const scene::Scene& scene, const scene::Combinations&
       progress));
 }
 
-/// Adds the columns of the parameters set by for_each.
-inline results::Schema with_set(const scene::Scene& scene, const scene::Study& study,
-                                results::Schema schema) {
-  NamedValues set;
-  for (const auto& [parameter, values] : study.for_each) set.emplace_back(parameter, 0);
-  add_columns(scene, set, schema.set);
-  return schema;
-}
-
 /// Items of more harmonics, where only parts of them had to be computed anew.
 template <class Item>
 struct Refined {
@@ -104,6 +95,7 @@ class ComputationOf final : public Computation {
   std::unique_ptr<Items> compute(const Case& at, const Progress& progress) const override {
     return std::make_unique<ItemsOf<Item>>(compute_items(at, progress));
   }
+  const results::Schema& schema() const override { return described.schema; }
   bool has_truncation() const override { return truncation_of_items != nullptr; }
   Truncation truncation(const Items& items) const override { return truncation_of_items(all(items)); }
   std::optional<RefinedItems> refine(const Case& at, const Items& coarse, double accuracy,
@@ -124,57 +116,48 @@ class ComputationOf final : public Computation {
   static All all(const Items& items) { return static_cast<const ItemsOf<Item>&>(items).all; }
 };
 
-/// A kind of study with items of one type.
-template <class S, class Item>
-struct KindOf {
-  std::string_view name, help;
-  scene::file::KeysOf<S> keys;
-  std::vector<Item> (*compute)(const Case& at, const S& settings, const results::ProgressCallback& progress);
-  Described<Item> (*results)(const scene::Scene& scene, const S& settings, const scene::RunOptions& options);
-  std::vector<results::FigureData> (*figures)(const scene::Scene& scene, std::span<const Item> items);
-  bool coefficients = true;  // whether the option of that name changes the results
-  bool timed = false;        // its results are times: one combination after the other
-  // Nothing, also without items, where the accuracy of the results does not depend on the harmonics.
-  std::optional<Truncation> (*truncation)(const S& settings, std::span<const Item> items) = nullptr;
-  std::optional<Refined<Item>> (*refine)(const Case& at, const S& settings, std::span<const Item> coarse,
-                                         double accuracy,
-                                         const results::ProgressCallback& progress) = nullptr;
-};
-
-template <class S, class Item>
-class StudyOf : public scene::file::KeyedStudy<S> {
+/// A kind of study with what it computes.
+///
+///   static const StudyKind kind({.name = "sweep", .help = "..."}, keys_of_sweep(), sweeps);
+class StudyKind : public scene::StudyType {
  public:
-  explicit StudyOf(KindOf<S, Item> kind) : scene::file::KeyedStudy<S>(kind.keys), kind_(std::move(kind)) {}
-  std::string_view name() const override { return kind_.name; }
-  std::string_view help() const override { return kind_.help; }
-  bool takes_coefficients() const override { return kind_.coefficients; }
+  struct Description {
+    std::string_view name, help;
+    std::string_view verb{};   // of the command; empty: the name
+    bool coefficients = true;  // whether the option of that name changes the results
+    bool timed = false;        // its results are times: one combination after the other
+  };
+
+  /// compute: the computation of a study with settings S, which may refer to its arguments.
+  template <class S>
+  StudyKind(const Description& of, scene::file::KeysOf<S> keys,
+            std::unique_ptr<Computation> (*compute)(const scene::Scene& scene, const S& settings,
+                                                    const RunOptions& options))
+      : StudyType(of.name, of.verb, of.help, std::make_shared<const scene::file::KeysOf<S>>(std::move(keys))),
+        coefficients_(of.coefficients),
+        timed_(of.timed),
+        compute_([compute](const scene::Scene& scene, const scene::Study& study, const RunOptions& options) {
+          return compute(scene, study.settings.as<S>(), options);
+        }) {}
+
+  bool takes_coefficients() const { return coefficients_; }
+  /// The structure of all results of the study.
   results::Schema schema(const scene::Scene& scene, const scene::Study& study,
-                         const scene::RunOptions& options) const override {
-    return with_set(scene, study, kind_.results(scene, study.settings.as<S>(), options).schema);
-  }
+                         const RunOptions& options) const;
+  /// Passes the results to the sink as they are computed, with the index of their schema in the sink: one
+  /// after the other for each combination of the study's for_each lists, each independent of the others.
+  /// Returns the requested figures, each with a unique name; a figure may be empty.
   std::vector<results::FigureData> run(const scene::Scene& scene, const scene::Study& study,
-                                       const scene::RunOptions& options, std::size_t schema,
-                                       results::Sink& sink) const override {
-    using All = std::span<const Item>;
-    using Progress = results::ProgressCallback;
-    const S& settings = study.settings.as<S>();
-    scene::RunOptions how = options;
-    if (kind_.timed) how.threads = 1;
-    ComputationOf<Item> of(
-        kind_.results(scene, settings, options),
-        [&](const Case& at, const Progress& progress) { return kind_.compute(at, settings, progress); },
-        [&](All items) { return kind_.figures(scene, items); });
-    if (kind_.truncation && kind_.truncation(settings, {}))
-      of.truncation_of_items = [&](All items) { return kind_.truncation(settings, items).value(); };
-    if (kind_.refine)
-      of.refine_items = [&](const Case& at, All coarse, double accuracy, const Progress& progress) {
-        return kind_.refine(at, settings, coarse, accuracy, progress);
-      };
-    return run_computation(scene, study, how, schema, sink, of);
-  }
+                                       const RunOptions& options, std::size_t schema,
+                                       results::Sink& sink) const;
 
  private:
-  KindOf<S, Item> kind_;
+  bool coefficients_, timed_;
+  std::function<std::unique_ptr<Computation>(const scene::Scene&, const scene::Study&, const RunOptions&)>
+      compute_;
 };
+
+/// Returns the kind with these keys. Throws std::invalid_argument if there are only the keys.
+const StudyKind& kind_of(const scene::StudyType& type);
 
 }  // namespace arcslip::studies

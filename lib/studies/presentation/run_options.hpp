@@ -1,0 +1,19 @@
+#pragma once
+
+#include <arcslip/control/progress.hpp>
+
+namespace arcslip::studies {
+
+/// Options for the extent of the results.
+struct RunOptions {
+  bool points = true;         // false: only events and facts, no rows of points and histories
+  bool coefficients = false;  // points and events with the Fourier coefficients a_n, b_n of the response
+  bool figures = false;
+  results::ProgressCallback progress{};  // false stops; the results so far are kept
+  // For combinations of for_each, or load cases of one optimum, that are computed at the same time; where
+  // there are fewer of these, for the elements of each response. Results are those of one thread. progress is
+  // then called by several threads, one at a time.
+  int threads = 1;
+};
+
+}  // namespace arcslip::studies
