@@ -137,16 +137,16 @@ BENCHMARK_CAPTURE(element, separating_contact_3d, separating_contact_3d, with_ja
 BENCHMARK_CAPTURE(element, iwan, iwan, with_jacobian)->Apply(element_orders);
 BENCHMARK(iwan_table)->Name("element/iwan_table_100")->Apply(element_orders);
 
-#define ARCSLIP_BESIDE_SAMPLING(law)                                                                         \
+#define ARCSLIP_AND_SAMPLED(law)                                                                             \
   BENCHMARK_CAPTURE(element, law, law, force_alone)->Name("force/" #law)->Apply(element_orders);             \
   BENCHMARK_CAPTURE(sampled_element, law, law, with_jacobian)->Name("sampled/" #law)->Apply(element_orders); \
   BENCHMARK_CAPTURE(sampled_element, law, law, force_alone)                                                  \
       ->Name("sampled_force/" #law)                                                                          \
       ->Apply(element_orders)
-ARCSLIP_BESIDE_SAMPLING(jenkins);
-ARCSLIP_BESIDE_SAMPLING(gap_spring);
-ARCSLIP_BESIDE_SAMPLING(contact_2d);
-ARCSLIP_BESIDE_SAMPLING(separating_contact_2d);
-ARCSLIP_BESIDE_SAMPLING(separating_contact_3d);
+ARCSLIP_AND_SAMPLED(jenkins);
+ARCSLIP_AND_SAMPLED(gap_spring);
+ARCSLIP_AND_SAMPLED(contact_2d);
+ARCSLIP_AND_SAMPLED(separating_contact_2d);
+ARCSLIP_AND_SAMPLED(separating_contact_3d);
 
 }  // namespace

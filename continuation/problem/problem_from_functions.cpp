@@ -175,7 +175,7 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     dF = search_.best();
   }
 
-  // Whether the bend b = h F_pp/2F_p between the two sides of a difference, which are beside_, promises an
+  // Whether the bend b = h F_pp/2F_p between the two sides of a difference, which are nearby_, promises an
   // error of 1e-8. The error h^2 F_ppp/6F_p is 2 b^2/3 if F bends over one length, as an exponential does,
   // and b h/3|p| if it is odd in p. At p = 0 such an F has no bend.
   bool is_straight(const DifferenceQuotient& quotient, double p) const {

@@ -13,7 +13,7 @@ function radius(i) {
 
 BEGIN {
   span = 10; chord = 3; thick = 1                            # bricks
-  platform = 5; lower = 0.074; upper = 0.080; overhang = 0.02  # brick of the span, its radii, its width beside
+  platform = 5; lower = 0.074; upper = 0.080; overhang = 0.02  # brick of the span, its radii, its width at the sides
   top = 0.2; width = 0.06; twist = 30                        # of the airfoil, degrees
   turn = twist * atan2(0, -1) / 180
 
@@ -21,14 +21,14 @@ BEGIN {
   for (i = 0; i <= span; ++i)
     for (j = 0; j <= chord; ++j)
       for (k = -1; k <= thick + 1; ++k) {
-        beside = k < 0 ? -1 : k > thick ? 1 : 0
-        if (beside && i != platform && i != platform - 1) continue
+        side = k < 0 ? -1 : k > thick ? 1 : 0
+        if (side && i != platform && i != platform - 1) continue
         z = radius(i); above = z > upper ? (z - upper) / (top - upper) : 0
         c = j / chord - 0.5
         x = width * c
-        y = (0.009 - 0.006 * above) * (1 - 2 * c * c) * ((k - beside) / thick - 0.5)
+        y = (0.009 - 0.006 * above) * (1 - 2 * c * c) * ((k - side) / thick - 0.5)
         printf "%d, %.9g, %.9g, %.9g\n", node(i, j, k), x * cos(turn * above) - y * sin(turn * above), \
-               x * sin(turn * above) + y * cos(turn * above) + beside * overhang, z
+               x * sin(turn * above) + y * cos(turn * above) + side * overhang, z
       }
 
   print "*ELEMENT, TYPE=C3D8I, ELSET=blade"

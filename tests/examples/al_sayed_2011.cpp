@@ -100,12 +100,12 @@ Table read_table(const fs::path& path) {
   return table;
 }
 
-struct Taken {
+struct Reading {
   double value, place;
 };
 
 /// Extreme of the parabola through the rows around the extreme one.
-Taken extreme(const Rows& rows, std::size_t y, std::size_t x, double sign) {
+Reading extreme(const Rows& rows, std::size_t y, std::size_t x, double sign) {
   std::size_t k = 1;
   for (std::size_t i = 1; i + 1 < rows.size(); ++i)
     if (sign * rows[i][y] > sign * rows[k][y]) k = i;
@@ -126,7 +126,7 @@ double interpolated(const Rows& rows, std::size_t y, std::size_t x, double where
   throw std::runtime_error("no row there");
 }
 
-Taken take(const Table& table, const Json& check) {
+Reading take(const Table& table, const Json& check) {
   Rows rows = table.blocks.at(check.value("block", 0));
   const std::size_t y = table.column(check.at("column"));
   const std::string what = check.at("take");
@@ -156,7 +156,7 @@ Taken take(const Table& table, const Json& check) {
   return {values.at(what), 0};
 }
 
-bool holds(const Json& check, const Taken& taken) {
+bool holds(const Json& check, const Reading& taken) {
   bool held = std::isfinite(taken.value);
   if (check.contains("is"))
     held = held && std::abs(taken.value - check.at("is").get<double>()) <= check.at("within").get<double>();
@@ -206,7 +206,7 @@ TEST_CASE("every figure has its data, and what figures.json says of it holds") {
         text_of(made.folder / figure.at("data")).find("# scene: " + figure.at("scene").get<std::string>()) !=
         std::string::npos);
     for (const Json& check : figure.at("checks")) {
-      const Taken taken = take(table, check);
+      const Reading taken = take(table, check);
       CAPTURE(figure.at("figure").get<std::string>(), check.at("says").get<std::string>(), taken.value,
               taken.place);
       CHECK(holds(check, taken));

@@ -17,7 +17,7 @@ set tics nomirror out scale 0.8,0.4
 set grid xtics ytics back linetype 1 linewidth 0.5 linecolor rgb '#dddddd'
 set key outside right center vertical Left reverse samplen 3.5 spacing 1.3 width 1
 
-# A few curves, told apart by colour and by dash.
+# A few curves, distinguished by colour and by dash.
 set style line 1 linewidth 2.5 linecolor rgb '#0d0887' dashtype solid
 set style line 2 linewidth 2.5 linecolor rgb '#b93289' dashtype (14,5)
 set style line 3 linewidth 2.5 linecolor rgb '#e28a18' dashtype (4,4)
@@ -27,7 +27,7 @@ set style line 9 linewidth 8 linecolor rgb '#cccccc' dashtype solid
 set style line 10 linewidth 1.5 linecolor rgb '#0d0887' pointtype 7 pointsize 0.8
 set style line 11 linewidth 2 linecolor rgb '#222222' pointtype 6 pointsize 1.6
 
-# A family of curves: colours in the order of the parameter, neighbours told apart by dash.
+# A family of curves: colours in the order of the parameter, neighbours distinguished by dash.
 set palette defined (0 '#0d0887', 1 '#5402a3', 2 '#8b0aa5', 3 '#b93289', 4 '#db5c68', 5 '#e47048', 6 '#e28a18')
 set cbrange [0:1]
 unset colorbox

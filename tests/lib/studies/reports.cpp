@@ -25,7 +25,7 @@ TEST_CASE("frequency responses have their peaks, folds and bifurcations where ot
         {"fold", "0.45499347"},
         {"period_doubling", "0.45501853"},
         {"period_doubling", "0.70097701"}}},
-      {"well_beside_hilltop",  // the same oscillator
+      {"well_next_to_hilltop",  // the same oscillator
        1,
        {{"fold", "0.86656707"},
         {"fold", "0.45499347"},
@@ -78,7 +78,7 @@ TEST_CASE("a response is reported to be unstable where shooting has a multiplier
       {"softening_duffing", {{{0.89277921, 0.86270560}}}},
       // It is stable between the fold at 0.45499347 rad/s and the period doubling next to it.
       {"well_about_its_bottom", {well, hilltop}},
-      {"well_beside_hilltop", {hilltop, well}},
+      {"well_next_to_hilltop", {hilltop, well}},
       {"two_to_one", {{{1.94977385, 2.04927705}}}},
   };
   Json softening;
@@ -118,7 +118,7 @@ TEST_CASE("all responses at one frequency are found, as large as by other method
   const std::vector<At> all = {
       {"duffing_far_below_resonance", 0, 1, {"0.9280296"}},                         // shooting
       {"well_about_its_bottom", 0, 4, {"0.18882525", "0.63635766", "0.75993002"}},  // shooting
-      {"well_beside_hilltop", 0, 4, {"1.17499413", "1.43764837", "1.45559681"}},    // shooting
+      {"well_next_to_hilltop", 0, 4, {"1.17499413", "1.43764837", "1.45559681"}},   // shooting
       {"weak_cubic_spring", 0, 2, {"3.0275193e-3", "2.8572074e-2"}},                // shooting
       {"block_on_lubricated_steel", 0, 1, {"1.781394e-3"}},                         // Den Hartog, closed form
       // Shooting; three at 0.2 N, one at 1 N and one at 7.5 N.
