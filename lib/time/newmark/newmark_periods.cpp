@@ -148,6 +148,54 @@ class Observation {
   PeriodMotion result_;
 };
 
+// Between which bounds a slider of one displacement may rest over a period.
+class SliderReach {
+ public:
+  /// change: of the displacements by the state at the start.
+  SliderReach(const TimeElement& element, int k, const MotionState& start,
+              const Eigen::Ref<const Matrix>& change)
+      : slider_(element.memory + k),
+        room_(element.law->slider_room(element.fields, k)),
+        lower_(element.directions * element.law->slider_bound(element.fields, k, -1).transpose()),
+        upper_(element.directions * element.law->slider_bound(element.fields, k, 1).transpose()),
+        high_(lower_.dot(start.x)),
+        low_(upper_.dot(start.x)),
+        d_high_(lower_.transpose() * change),
+        d_low_(upper_.transpose() * change) {
+    up_ = down_ = element.law->traits(element.fields, element.law->slider_direction(k)).limit == 0;
+  }
+
+  // A slider that slips in one direction only does not return, and counts as sticking for periodic motions.
+  bool rests() const { return !(up_ && down_); }
+
+  void step(const Vector& x, const Vector& memory_change, const Eigen::Ref<const Matrix>& change) {
+    const double slip = memory_change[slider_];
+    up_ = up_ || slip > 0;
+    down_ = down_ || slip < 0;
+    if (!rests()) return;
+    if (const double bound = lower_.dot(x); bound > high_) {
+      high_ = bound;
+      d_high_ = lower_.transpose() * change;
+    }
+    if (const double bound = upper_.dot(x); bound < low_) {
+      low_ = bound;
+      d_low_ = upper_.transpose() * change;
+    }
+  }
+
+  void add_to(std::vector<RestingSlider>& resting) const {
+    resting.push_back(resting_slider(slider_, room_, high_, d_high_, low_, d_low_));
+  }
+
+ private:
+  int slider_;
+  std::optional<double> room_;  // between its bounds: elements::Law::slider_room()
+  Vector lower_, upper_;        // its bounds move with lower . x and upper . x
+  double high_, low_;           // of the lower and of the upper one
+  Eigen::RowVectorXd d_high_, d_low_;
+  bool up_, down_;  // slips that way
+};
+
 }  // namespace
 
 std::pair<results::Reason, std::string> failure_of(Solved solved, double time) {
@@ -197,40 +245,19 @@ PeriodMotion newmark_periods(Newmark& newmark, const MotionState& start, long co
 PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
   const EquationOfMotion& equation = newmark.equation();
   const Eigen::Index n = equation.dofs(), size = 2 * n + equation.memory;
-  struct Reach {
-    int slider;
-    std::optional<double> room;  // between its bounds: elements::Law::slider_room()
-    Vector lower, upper;         // its bounds move with lower . x and upper . x
-    double high, low;            // of the lower and of the upper one
-    Eigen::RowVectorXd d_high, d_low;
-    bool up, down;  // slips that way
-
-    // A slider that slips in one direction only does not return, and counts as sticking for periodic motions.
-    bool rests() const { return !(up && down); }
-  };
   PeriodMap map;
   map.monodromy = Matrix::Identity(size, size);
   newmark.resume(start);
-  std::vector<Reach> reaches;
+  std::vector<SliderReach> reaches;
   std::vector<PlaneSlider> planes;
   for (const TimeElement& element : equation.elements) {
     if (PlaneSlider::among(*element.law)) {
       planes.emplace_back(element, newmark.steps_per_period(), size);
       continue;
     }
-    for (int k = 0; k < element.law->memory(); ++k) {
-      const int along = element.law->slider_direction(k);
-      if (along < 0) continue;
-      const auto bound = [&](int side) -> Vector {
-        return element.directions * element.law->slider_bound(element.fields, k, side).transpose();
-      };
-      const Vector lower = bound(-1), upper = bound(1);
-      const auto change = map.monodromy.topRows(n);
-      const bool free = element.law->traits(element.fields, along).limit == 0;
-      reaches.push_back({element.memory + k, element.law->slider_room(element.fields, k), lower, upper,
-                         lower.dot(start.x), upper.dot(start.x), lower.transpose() * change,
-                         upper.transpose() * change, free, free});
-    }
+    for (int k = 0; k < element.law->memory(); ++k)
+      if (element.law->slider_direction(k) >= 0)
+        reaches.emplace_back(element, k, start, map.monodromy.topRows(n));
   }
   for (long k = 0; k < newmark.steps_per_period(); ++k) {
     const Solved solved = newmark.step();
@@ -241,28 +268,12 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
     newmark.differentiate(map.monodromy);
     const MotionState& state = newmark.state();
     map.size = std::max(map.size, std::hypot(state.x.norm(), state.v.norm() / equation.omega));
-    for (PlaneSlider& plane : planes)
-      plane.step(state.x, newmark.elements().memory_change(), map.monodromy.topRows(n));
-    for (std::size_t i = 0; i < reaches.size(); ++i) {
-      Reach& reach = reaches[i];
-      const double slip = newmark.elements().memory_change()[reach.slider];
-      reach.up = reach.up || slip > 0;
-      reach.down = reach.down || slip < 0;
-      if (!reach.rests()) continue;
-      if (const double bound = reach.lower.dot(state.x); bound > reach.high) {
-        reach.high = bound;
-        reach.d_high = reach.lower.transpose() * map.monodromy.topRows(n);
-      }
-      if (const double bound = reach.upper.dot(state.x); bound < reach.low) {
-        reach.low = bound;
-        reach.d_low = reach.upper.transpose() * map.monodromy.topRows(n);
-      }
-    }
+    const auto change = map.monodromy.topRows(n);
+    for (PlaneSlider& plane : planes) plane.step(state.x, newmark.elements().memory_change(), change);
+    for (SliderReach& reach : reaches) reach.step(state.x, newmark.elements().memory_change(), change);
   }
-  for (std::size_t i = 0; i < reaches.size(); ++i)
-    if (reaches[i].rests())
-      map.resting.push_back(resting_slider(reaches[i].slider, reaches[i].room, reaches[i].high,
-                                           reaches[i].d_high, reaches[i].low, reaches[i].d_low));
+  for (const SliderReach& reach : reaches)
+    if (reach.rests()) reach.add_to(map.resting);
   for (const PlaneSlider& plane : planes)
     if (plane.rests()) plane.add_to(map.resting);
   map.end = newmark.state();
