@@ -391,43 +391,55 @@ Node rotation() {
   return of(std::move(object));
 }
 
-Node schema_of(const Catalogue& catalogue) {
-  Object structure{{"cyclic", cyclic()},
-                   {"dofs", list_of(word(), 1)},
-                   {"masses", list_of(part_of(mass_type(), false))},
-                   {"springs", list_of(spring())},
-                   {"dampers", list_of(damper())}};
-  structure.push_back({"matrices", of(object_of({{"mass", matrix_file()},
-                                                 {"stiffness", matrix_file()},
-                                                 {"damping", matrix_file()},
-                                                 {"stiffness_speed_squared", matrix_file()},
-                                                 {"gyroscopic", matrix_file()},
-                                                 {"circulatory", matrix_file()},
-                                                 {"unsymmetric", unsymmetric()},
-                                                 {"highest_frequency", of_type("number")},
-                                                 {"faces", of_type("string")},
-                                                 {"copies", copies()},
-                                                 {"stiffness_factors", list_of(above_zero())}},
-                                                {"mass", "stiffness"}))});
-  structure.push_back({"names", of_type("string")});
-  structure.push_back({"rotation", rotation()});
-  for (const bool bends : {true, false}) {
-    Object bar{{"elements", of_type("integer")}, {"highest_frequency", of_type("number")}};
-    for (const char* key : {"length", "young", "density", "area", "width", "height"})
-      bar.push_back({key, of_type("number")});
-    if (bends) bar.push_back({"inertia", of_type("number")});
-    bar.push_back({"ends", list_of(one_of_words(bar_ends, BarEnd::clamped))});
-    bar.push_back({"points", map_of(of_type("number"))});
-    structure.push_back({bends ? "beam" : "rod", of(object_of(std::move(bar), {"elements", "length", "young",
-                                                                               "density", "points"}))});
-  }
-  Node::List dampings;
-  for (const PartType* type : damping_types()) dampings.push_back(part_of(*type, true));
-  structure.push_back({"damping", list_of(of({{"oneOf", {std::move(dampings)}}}))});
-  Node::List elements, excitations, studies;
-  for (const PartType* type : excitation_types()) excitations.push_back(part_of(*type, true));
-  for (const auto& type : catalogue.elements) elements.push_back(part_of(*type, true));
-  for (const auto& type : catalogue.studies) studies.push_back(study_of(*type));
+Node matrices_of_structure() {
+  return of(object_of({{"mass", matrix_file()},
+                       {"stiffness", matrix_file()},
+                       {"damping", matrix_file()},
+                       {"stiffness_speed_squared", matrix_file()},
+                       {"gyroscopic", matrix_file()},
+                       {"circulatory", matrix_file()},
+                       {"unsymmetric", unsymmetric()},
+                       {"highest_frequency", of_type("number")},
+                       {"faces", of_type("string")},
+                       {"copies", copies()},
+                       {"stiffness_factors", list_of(above_zero())}},
+                      {"mass", "stiffness"}));
+}
+
+Node beam_or_rod(bool bends) {
+  Object keys{{"elements", of_type("integer")}, {"highest_frequency", of_type("number")}};
+  for (const char* key : {"length", "young", "density", "area", "width", "height"})
+    keys.push_back({key, of_type("number")});
+  if (bends) keys.push_back({"inertia", of_type("number")});
+  keys.push_back({"ends", list_of(one_of_words(bar_ends, BarEnd::clamped))});
+  keys.push_back({"points", map_of(of_type("number"))});
+  return of(object_of(std::move(keys), {"elements", "length", "young", "density", "points"}));
+}
+
+// A list of parts, each of one of the types.
+template <class Types>
+Node list_of_types(const Types& types, int least = 0) {
+  Node::List choices;
+  for (const auto& type : types) choices.push_back(part_of(*type, true));
+  return list_of(of({{"oneOf", {std::move(choices)}}}), least);
+}
+
+Node structure_section() {
+  return of(object_of({{"cyclic", cyclic()},
+                       {"dofs", list_of(word(), 1)},
+                       {"masses", list_of(part_of(mass_type(), false))},
+                       {"springs", list_of(spring())},
+                       {"dampers", list_of(damper())},
+                       {"matrices", matrices_of_structure()},
+                       {"names", of_type("string")},
+                       {"rotation", rotation()},
+                       {"beam", beam_or_rod(true)},
+                       {"rod", beam_or_rod(false)},
+                       {"damping", list_of_types(damping_types())}},
+                      {}));
+}
+
+Node harmonics_section() {
   Object samples{{"type", node("integer")}, {"default", node(Harmonics{}.samples)}};
   add_bounds(1, false, largest_samples, samples);
   Object order{{"type", node("integer")}};
@@ -436,26 +448,31 @@ Node schema_of(const Catalogue& catalogue) {
   add_bounds(1, false, largest_period, period);
   Object accuracy{{"type", node("number")}, {"default", node(default_accuracy)}};
   add_bounds(finest_accuracy, false, coarsest_accuracy, accuracy);
-  Object root = object_of(
-      {{"$schema", of_type("string")},
-       {"format", of({{"const", node(format_name)}})},
-       {"title", of_type("string")},
-       {"frequency_unit", one_of_words(frequency_units, Scene{}.frequency_unit)},
-       {"structure", of(object_of(std::move(structure), {}))},
-       {"elements", list_of(of({{"oneOf", {std::move(elements)}}}))},
-       {"patches", list_of(patch())},
-       {"excitation", list_of(of({{"oneOf", {std::move(excitations)}}}), 1)},
-       {"ties", map_of(list_of(word(), 1))},
-       {"labels", map_of(of_type("string"))},
-       {"harmonics", of(object_of({{"order", of(std::move(order))},
-                                   {"accuracy", of(std::move(accuracy))},
-                                   {"period", of(std::move(period))},
-                                   {"friction", one_of_words(friction_methods, Harmonics{}.friction)},
-                                   {"samples", of(std::move(samples))}},
-                                  {}))},
-       {"response", responses()},
-       {"studies", list_of(of({{"oneOf", {std::move(studies)}}}))}},
-      {"format", "structure", "excitation"});
+  return of(object_of({{"order", of(std::move(order))},
+                       {"accuracy", of(std::move(accuracy))},
+                       {"period", of(std::move(period))},
+                       {"friction", one_of_words(friction_methods, Harmonics{}.friction)},
+                       {"samples", of(std::move(samples))}},
+                      {}));
+}
+
+Node schema_of(const Catalogue& catalogue) {
+  Node::List studies;
+  for (const auto& type : catalogue.studies) studies.push_back(study_of(*type));
+  Object root = object_of({{"$schema", of_type("string")},
+                           {"format", of({{"const", node(format_name)}})},
+                           {"title", of_type("string")},
+                           {"frequency_unit", one_of_words(frequency_units, Scene{}.frequency_unit)},
+                           {"structure", structure_section()},
+                           {"elements", list_of_types(catalogue.elements)},
+                           {"patches", list_of(patch())},
+                           {"excitation", list_of_types(excitation_types(), 1)},
+                           {"ties", map_of(list_of(word(), 1))},
+                           {"labels", map_of(of_type("string"))},
+                           {"harmonics", harmonics_section()},
+                           {"response", responses()},
+                           {"studies", list_of(of({{"oneOf", {std::move(studies)}}}))}},
+                          {"format", "structure", "excitation"});
   Object schema{{"$schema", node("https://json-schema.org/draft/2020-12/schema")},
                 {"title", node("Arcslip scene")}};
   schema.insert(schema.end(), root.begin(), root.end());
