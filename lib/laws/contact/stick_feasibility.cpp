@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace arcslip::elements {
 namespace {
@@ -32,6 +33,34 @@ struct Excess {
   }
 };
 
+// Two opposite points: |x - w| - h - r = 0 and its derivative by the angle at both, and n_0 x n_1 = 0.
+// Unknowns are w, r and both angles.
+struct OppositePoints {
+  using Equations = Eigen::Matrix<double, 5, 5>;
+
+  Excess at[2];
+  double across[2], by[2];  // t . v; of n_0 x n_1 by a turn of n
+  Equations A = Equations::Zero();
+
+  OppositePoints(const DiscPoint& a, const DiscPoint& b, const Eigen::Vector2d& w) : at{{a, w}, {b, w}} {
+    for (int k = 0; k < 2; ++k) {
+      across[k] = at[k].t.dot((k == 0 ? a : b).v);
+      A.row(k) << -at[k].n.transpose(), -1, 0, 0;
+      A(k, 3 + k) = at[k].d1;
+      A.row(2 + k).head<2>() = -across[k] / at[k].d * at[k].t.transpose();
+      A(2 + k, 3 + k) = at[k].d2;
+      by[k] = k == 0 ? cross(at[0].t, at[1].n) : cross(at[0].n, at[1].t);
+      A.row(4).head<2>() -= by[k] / at[k].d * at[k].t.transpose();
+      A(4, 3 + k) = by[k] * across[k] / at[k].d;
+    }
+  }
+  Eigen::Matrix<double, 5, 1> residual(double r) const {
+    Eigen::Matrix<double, 5, 1> e;
+    e << at[0].value - r, at[1].value - r, at[0].d1, at[1].d1, cross(at[0].n, at[1].n);
+    return e;
+  }
+};
+
 // phi and phi' at an angle.
 struct Basis {
   Eigen::RowVectorXd phi, slope;
@@ -46,6 +75,13 @@ struct Basis {
     }
   }
 };
+
+// |x - w| - h by the coefficients of x_1, x_2 and h.
+Eigen::RowVectorXd by_coefficients(const Excess& at, const Basis& basis) {
+  Eigen::RowVectorXd row(3 * basis.phi.size());
+  row << at.n[0] * basis.phi, at.n[1] * basis.phi, -basis.phi;
+  return row;
+}
 
 }  // namespace
 
@@ -217,144 +253,130 @@ void StickCentre::find(const Disc& disc) {
   polish();
 }
 
-// Neighbouring points are one maximum. Two have to be opposite, which the values alone decide poorly.
-void StickCentre::polish() {
-  const double same = 0.5 * whole_turn / static_cast<double>(samples_.size());
+// Neighbouring points are one maximum.
+void StickCentre::merge_neighbours() {
   std::vector<double> distinct;
   for (const double theta : active_) {
     const bool known = std::any_of(distinct.begin(), distinct.end(), [&](double other) {
-      return std::abs(std::remainder(theta - other, whole_turn)) < same &&
+      return std::abs(std::remainder(theta - other, whole_turn)) < half_spacing() &&
              Excess(disc_.at(theta), w_).n.dot(Excess(disc_.at(other), w_).n) > 0.5;
     });
     if (!known) distinct.push_back(theta);
   }
   active_ = distinct;
+}
+
+// A step of Newton's method, with its length; not finite where there is none.
+double StickCentre::polish_three() {
+  const double same = half_spacing();
+  Eigen::Matrix3d A;
+  Eigen::Vector3d e;
+  for (int k = 0; k < 3; ++k) {
+    double& theta = active_[static_cast<std::size_t>(k)];
+    const Excess here(disc_.at(theta), w_);
+    if (here.d2 < 0) theta -= std::clamp(here.d1 / here.d2, -same, same);
+    const Excess at(disc_.at(theta), w_);
+    A.row(k) << -at.n.transpose(), -1;
+    e[k] = at.value - r_;
+  }
+  const Eigen::Vector3d step = A.fullPivLu().solve(-e);
+  w_ += step.head<2>();
+  r_ += step[2];
+  return step.norm();
+}
+
+double StickCentre::polish_opposite() {
+  const double same = half_spacing();
+  const OppositePoints points(disc_.at(active_[0]), disc_.at(active_[1]), w_);
+  const Eigen::Matrix<double, 5, 1> step = points.A.fullPivLu().solve(-points.residual(r_));
+  if (!step.allFinite()) return std::numeric_limits<double>::infinity();
+  w_ += step.head<2>();
+  r_ += step[2];
+  for (int k = 0; k < 2; ++k) active_[static_cast<std::size_t>(k)] += std::clamp(step[3 + k], -same, same);
+  return step.head<3>().norm();
+}
+
+// Two points have to be opposite, which the values alone decide poorly.
+void StickCentre::polish() {
+  merge_neighbours();
   const Eigen::Vector2d w = w_;
-  const double r = r_;
+  const double r = r_, size = disc_.motion_bound(0);
   const std::vector<double> angles = active_;
   bool settled = active_.size() < 2;
   for (int i = 0; i < 12 && !settled; ++i) {
-    double change = 0;
-    if (active_.size() == 3) {
-      Eigen::Matrix3d A;
-      Eigen::Vector3d e;
-      for (int k = 0; k < 3; ++k) {
-        double& theta = active_[static_cast<std::size_t>(k)];
-        const Excess here(disc_.at(theta), w_);
-        if (here.d2 < 0) theta -= std::clamp(here.d1 / here.d2, -same, same);
-        const Excess at(disc_.at(theta), w_);
-        A.row(k) << -at.n.transpose(), -1;
-        e[k] = at.value - r_;
-      }
-      const Eigen::Vector3d step = A.fullPivLu().solve(-e);
-      w_ += step.head<2>();
-      r_ += step[2];
-      change = step.norm();
-    } else {
-      Eigen::Matrix<double, 5, 5> A = Eigen::Matrix<double, 5, 5>::Zero();
-      Eigen::Matrix<double, 5, 1> e;
-      Excess at[2] = {{disc_.at(active_[0]), w_}, {disc_.at(active_[1]), w_}};
-      for (int k = 0; k < 2; ++k) {
-        const DiscPoint p = disc_.at(active_[static_cast<std::size_t>(k)]);
-        const double across = at[k].t.dot(p.v);
-        e[k] = at[k].value - r_;
-        A.row(k) << -at[k].n.transpose(), -1, 0, 0;
-        A(k, 3 + k) = at[k].d1;
-        e[2 + k] = at[k].d1;
-        A.row(2 + k).head<2>() = -across / at[k].d * at[k].t.transpose();
-        A(2 + k, 3 + k) = at[k].d2;
-        const double by = k == 0 ? cross(at[0].t, at[1].n) : cross(at[0].n, at[1].t);
-        A.row(4).head<2>() -= by / at[k].d * at[k].t.transpose();
-        A(4, 3 + k) = by * across / at[k].d;
-      }
-      e[4] = cross(at[0].n, at[1].n);
-      const Eigen::Matrix<double, 5, 1> step = A.fullPivLu().solve(-e);
-      if (!step.allFinite()) break;
-      w_ += step.head<2>();
-      r_ += step[2];
-      for (int k = 0; k < 2; ++k)
-        active_[static_cast<std::size_t>(k)] += std::clamp(step[3 + k], -same, same);
-      change = step.head<3>().norm();
-    }
-    settled = change <= centre_rounding * disc_.motion_bound(0);
+    const double change = active_.size() == 3 ? polish_three() : polish_opposite();
+    settled = change <= centre_rounding * size;
     if (!std::isfinite(change)) break;
   }
   // Newton's method may have left for somewhere else.
-  if (!settled || !((w_ - w).norm() <= 1e-2 * disc_.motion_bound(0)) ||
-      !(std::abs(r_ - r) <= 1e-6 * disc_.motion_bound(0))) {
-    w_ = w;
-    r_ = r;
-    active_ = angles;
-    if (active_.size() > 3) active_.resize(3);
-  }
+  if (settled && (w_ - w).norm() <= 1e-2 * size && std::abs(r_ - r) <= 1e-6 * size) return;
+  w_ = w;
+  r_ = r;
+  active_ = angles;
+  if (active_.size() > 3) active_.resize(3);
 }
 
 void StickCentre::derivative(Eigen::Ref<Eigen::MatrixXd> dw) const {
-  const Eigen::Index c = harmonics_.size();
   dw.setZero();
-  if (active_.size() < 2) {
-    // Along with the disc: its mean, or the only active point.
-    const Eigen::VectorXd phi = active_.empty() ? Eigen::VectorXd(Eigen::VectorXd::Unit(c, 0))
-                                                : Eigen::VectorXd(Basis(harmonics_, active_[0]).phi);
-    dw.row(0).head(c) = phi.transpose();
-    dw.row(1).segment(c, c) = phi.transpose();
-    return;
-  }
-  const auto row_of = [&](const Excess& at, const Basis& basis) {
-    Eigen::RowVectorXd row(3 * c);
-    row << at.n[0] * basis.phi, at.n[1] * basis.phi, -basis.phi;
-    return row;
-  };
-  if (active_.size() == 3) {
-    Eigen::Matrix3d A;
-    Eigen::MatrixXd rows(3, 3 * c);
-    for (int k = 0; k < 3; ++k) {
-      const double theta = active_[static_cast<std::size_t>(k)];
-      const Excess at(disc_.at(theta), w_);
-      A.row(k) << at.n.transpose(), 1;
-      rows.row(k) = row_of(at, Basis(harmonics_, theta));
-    }
-    const Eigen::MatrixXd all = A.fullPivLu().solve(rows);
-    dw = all.topRows(2);
-    return;
-  }
-  Eigen::Matrix<double, 5, 5> A = Eigen::Matrix<double, 5, 5>::Zero();
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(5, 3 * c);
-  const Excess at[2] = {{disc_.at(active_[0]), w_}, {disc_.at(active_[1]), w_}};
-  for (int k = 0; k < 2; ++k) {
+  if (active_.size() < 2)
+    derivative_of_one(dw);
+  else if (active_.size() == 3)
+    derivative_of_three(dw);
+  else
+    derivative_of_opposite(dw);
+}
+
+// Along with the disc: its mean, or the only active point.
+void StickCentre::derivative_of_one(Eigen::Ref<Eigen::MatrixXd> dw) const {
+  const Eigen::Index c = harmonics_.size();
+  const Eigen::VectorXd phi = active_.empty() ? Eigen::VectorXd(Eigen::VectorXd::Unit(c, 0))
+                                              : Eigen::VectorXd(Basis(harmonics_, active_[0]).phi);
+  dw.row(0).head(c) = phi.transpose();
+  dw.row(1).segment(c, c) = phi.transpose();
+}
+
+void StickCentre::derivative_of_three(Eigen::Ref<Eigen::MatrixXd> dw) const {
+  Eigen::Matrix3d A;
+  Eigen::MatrixXd rows(3, dw.cols());
+  for (int k = 0; k < 3; ++k) {
     const double theta = active_[static_cast<std::size_t>(k)];
-    const DiscPoint p = disc_.at(theta);
-    const Basis basis(harmonics_, theta);
-    const double across = at[k].t.dot(p.v);
-    A.row(k) << -at[k].n.transpose(), -1, 0, 0;
-    A(k, 3 + k) = at[k].d1;
-    A.row(2 + k).head<2>() = -across / at[k].d * at[k].t.transpose();
-    A(2 + k, 3 + k) = at[k].d2;
-    const double by = k == 0 ? cross(at[0].t, at[1].n) : cross(at[0].n, at[1].t);
-    A.row(4).head<2>() -= by / at[k].d * at[k].t.transpose();
-    A(4, 3 + k) = by * across / at[k].d;
-    rows.row(k) = row_of(at[k], basis);
+    const Excess at(disc_.at(theta), w_);
+    A.row(k) << at.n.transpose(), 1;
+    rows.row(k) = by_coefficients(at, Basis(harmonics_, theta));
+  }
+  const Eigen::MatrixXd all = A.fullPivLu().solve(rows);
+  dw = all.topRows(2);
+}
+
+void StickCentre::derivative_of_opposite(Eigen::Ref<Eigen::MatrixXd> dw) const {
+  const Eigen::Index c = harmonics_.size();
+  const OppositePoints points(disc_.at(active_[0]), disc_.at(active_[1]), w_);
+  const Basis bases[2] = {{harmonics_, active_[0]}, {harmonics_, active_[1]}};
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(5, 3 * c);
+  for (int k = 0; k < 2; ++k) {
+    const Excess& at = points.at[k];
+    const Basis& basis = bases[k];
+    rows.row(k) = by_coefficients(at, basis);
     for (int i = 0; i < 2; ++i) {
       rows.row(2 + k).segment(i * c, c) =
-          at[k].n[i] * basis.slope + across / at[k].d * at[k].t[i] * basis.phi;
-      rows.row(4).segment(i * c, c) += by / at[k].d * at[k].t[i] * basis.phi;
+          at.n[i] * basis.slope + points.across[k] / at.d * at.t[i] * basis.phi;
+      rows.row(4).segment(i * c, c) += points.by[k] / at.d * at.t[i] * basis.phi;
     }
     rows.row(2 + k).tail(c) = -basis.slope;
   }
-  const auto lu = A.fullPivLu();
+  const auto lu = points.A.fullPivLu();
   if (lu.isInvertible()) {
     const Eigen::MatrixXd all = lu.solve(rows);
     dw = -all.topRows(2);
     return;
   }
   // Along the line through both as their values say, across it with the mean of both.
+  const Eigen::Vector2d &n = points.at[0].n, &t = points.at[0].t;
   const Eigen::RowVectorXd along = 0.5 * (rows.row(0) - rows.row(1));
   for (int i = 0; i < 2; ++i) {
-    dw.row(i) = at[0].n[i] * along;
-    for (const double theta : active_) {
-      const Basis basis(harmonics_, theta);
-      for (int j = 0; j < 2; ++j) dw.row(i).segment(j * c, c) += 0.5 * at[0].t[i] * at[0].t[j] * basis.phi;
-    }
+    dw.row(i) = n[i] * along;
+    for (const Basis& basis : bases)
+      for (int j = 0; j < 2; ++j) dw.row(i).segment(j * c, c) += 0.5 * t[i] * t[j] * basis.phi;
   }
 }
 

@@ -48,7 +48,14 @@ class StickCentre {
   Point farthest();
   double climb(double theta) const;
   void solve(std::vector<Point>& basis);
+  double half_spacing() const { return 0.5 * whole_turn / static_cast<double>(samples_.size()); }
+  void merge_neighbours();
+  double polish_three();
+  double polish_opposite();
   void polish();
+  void derivative_of_one(Eigen::Ref<Eigen::MatrixXd> dw) const;
+  void derivative_of_three(Eigen::Ref<Eigen::MatrixXd> dw) const;
+  void derivative_of_opposite(Eigen::Ref<Eigen::MatrixXd> dw) const;
 
   Harmonics harmonics_;
   Disc disc_;  // without means, in units
