@@ -98,6 +98,24 @@ std::optional<DiscPhases::Bracket> DiscPhases::end_of_slip(const Disc& disc, con
   return {};
 }
 
+// By regula falsi after Illinois, with bisection every third step.
+double DiscPhases::root_in(const Disc& disc, const SlipPanel& panel, const Bracket& bracket) const {
+  auto [below, f_below, above, f_above] = bracket;
+  double root = f_below > 0 ? above : below;
+  for (int i = 0; i < 80 && f_below > 0 && above - below > 1e-14; ++i) {
+    root = i % 3 == 2 ? 0.5 * (below + above) : below + f_below / (f_below - f_above) * (above - below);
+    const double f = spare(disc, panel, root).first;
+    if (f >= 0) {
+      below = root;
+      f_below = f;
+    } else {
+      above = root;
+      f_above = f;
+    }
+  }
+  return std::min(root, panel.theta[panel_nodes - 1]);
+}
+
 // From the state at `begin` until slip ends, or to `end`. decay: of a change of w across n.
 double DiscPhases::slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends) {
   double theta = begin, length = longest_, least = shortest;
@@ -124,21 +142,7 @@ double DiscPhases::slip(const Disc& disc, State& state, double begin, double end
     }
     const auto bracket = held ? std::nullopt : end_of_slip(disc, panel);
     if (bracket) {
-      auto [below, f_below, above, f_above] = *bracket;
-      double root = f_below > 0 ? above : below;
-      for (int i = 0; i < 80 && f_below > 0 && above - below > 1e-14; ++i) {
-        // Regula falsi after Illinois, with bisection every third step.
-        root = i % 3 == 2 ? 0.5 * (below + above) : below + f_below / (f_below - f_above) * (above - below);
-        const double f = spare(disc, panel, root).first;
-        if (f >= 0) {
-          below = root;
-          f_below = f;
-        } else {
-          above = root;
-          f_above = f;
-        }
-      }
-      root = std::min(root, panel.theta[panel_nodes - 1]);
+      const double root = root_in(disc, panel, *bracket);
       ends = true;
       if (root - theta <= 1e-13) return theta;
       SlipPanel shorter;

@@ -84,6 +84,7 @@ class DiscPhases {
              Eigen::Matrix2d* by);
   std::pair<double, double> spare(const Disc& disc, const SlipPanel& panel, double theta) const;
   std::optional<Bracket> end_of_slip(const Disc& disc, const SlipPanel& panel) const;
+  double root_in(const Disc& disc, const SlipPanel& panel, const Bracket& bracket) const;
   double slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends);
   Eigen::Vector2d displacement(const SlipPanel& panel) const;
   Period period(const Disc& disc, double begin, const Eigen::Vector2d& w);
