@@ -12,13 +12,20 @@ FrictionPhases::FrictionPhases(const Harmonics& harmonics) : harmonics_(harmonic
 const std::vector<FrictionPhase>& FrictionPhases::find(In u, double slip_displacement) {
   phases_.clear();
   const auto& turns = reversals_.find(u);
-  const double mean = harmonics_.odd ? 0.0 : u[0];
   if (turns.empty()) {
-    highest_ = lowest_ = {0, mean};
+    highest_ = lowest_ = {0, harmonics_.odd ? 0.0 : u[0]};
     return phases_;
   }
-  // One span from the highest point back to it (or, where the motion is odd, to its mirror image, the
-  // lowest).
+  set_path(turns);
+  if (!(highest_.x - lowest_.x <= 2 * slip_displacement))
+    follow_path(u, slip_displacement);
+  else if (!harmonics_.odd)
+    choose_extremes(turns);
+  return phases_;
+}
+
+// One span from the highest point back to it (or, where the motion is odd, to its mirror image, the lowest).
+void FrictionPhases::set_path(const std::vector<Reversal>& turns) {
   path_.clear();
   const double span = harmonics_.span();
   std::size_t top = 0;
@@ -45,11 +52,9 @@ const std::vector<FrictionPhase>& FrictionPhases::find(In u, double slip_displac
     for (std::size_t k = 0; k < path_.size(); ++k)
       if (path_[k].x < path_[bottom].x) bottom = k;
   lowest_ = path_[bottom];
-  if (highest_.x - lowest_.x <= 2 * slip_displacement) {
-    if (!harmonics_.odd) choose_extremes(turns);
-    return phases_;
-  }
+}
 
+void FrictionPhases::follow_path(In u, double slip_displacement) {
   Reversal anchor = path_.front();
   double anchored = 1;
   for (std::size_t k = 0; k + 1 < path_.size(); ++k) {
@@ -67,7 +72,6 @@ const std::vector<FrictionPhase>& FrictionPhases::find(In u, double slip_displac
   // Rounding may leave the way back to the last extreme without slip: then it sticks to the end.
   if (anchor.theta < path_.back().theta)
     phases_.push_back({anchor.theta, anchor.x, anchored, path_.back().theta, 1, path_.back().theta});
-  return phases_;
 }
 
 // Of several highest and lowest reversals, as in a motion with a shorter period than the force, the nearest

@@ -32,6 +32,8 @@ class FrictionPhases {
   std::uint64_t extremes() const { return extremes_; }
 
  private:
+  void set_path(const std::vector<Reversal>& turns);
+  void follow_path(In u, double slip_displacement);
   void choose_extremes(const std::vector<Reversal>& turns);
 
   Harmonics harmonics_;
