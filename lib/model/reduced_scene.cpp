@@ -84,10 +84,8 @@ class Blocks {
   std::size_t next_ = 0;
 };
 
-}  // namespace
-
-ReducedScene reduced_scene(const scene::Scene& scene, const std::string& folder,
-                           const scene::StopRequest& stop) {
+// Throws NotReduced where the scene has no reduction of its own.
+void check_reduced(const scene::Scene& scene) {
   if (!scene.matrices || scene.matrices->highest_frequency == 0)
     throw NotReduced(
         "the structure is not reduced: give its matrices, its beam or its rod a \"highest_frequency\"");
@@ -105,67 +103,88 @@ ReducedScene reduced_scene(const scene::Scene& scene, const std::string& folder,
           "the ground moves under all rows by the excitation \"" + part.name +
           "\", which has no displacements of the coordinates of a reduced structure: give M r as "
           "the shape of a force");
+}
+
+// The files of the reduced structure of a model, and their places in a scene.
+class ReducedFiles {
+ public:
+  ReducedFiles(const Model& model, const scene::Scene& scene) : model_(model) {
+    const scene::Matrices& matrices = *scene.matrices;
+    comment_ = "reduced from " + std::to_string(model.reduction->rows) + " rows, for frequencies up to ";
+    append(comment_, matrices.highest_frequency);
+    comment_ += " " + std::string(scene::unit_name(scene.frequency_unit)) + ", error ";
+    append(comment_, model.reduction->error);
+  }
+
+  void add_matrices(const scene::Matrices& from, scene::Matrices& to) {
+    const auto form = [](bool unsymmetric) {
+      return unsymmetric ? MatrixForm::general : MatrixForm::symmetric;
+    };
+    Blocks blocks(model_);
+    const Eigen::MatrixXd M = blocks.next();
+    to.mass = matrix("M.mtx", M, MatrixForm::symmetric);
+    to.stiffness = matrix("K.mtx", semidefinite(blocks.next(), M, model_.reduction->highest_frequency),
+                          form(from.unsymmetric_stiffness));
+    if (from.damping.matrix) to.damping = matrix("C.mtx", blocks.next(), form(from.unsymmetric_damping));
+    if (from.stiffness_speed_squared.matrix)
+      to.stiffness_speed_squared = matrix("K2.mtx", blocks.next(), MatrixForm::symmetric);
+    if (from.gyroscopic.matrix) to.gyroscopic = matrix("G.mtx", blocks.next(), MatrixForm::skew);
+    if (from.circulatory.matrix) to.circulatory = matrix("N.mtx", blocks.next(), MatrixForm::skew);
+    std::string names = "name,row\n";
+    for (int i = 0; i < model_.unnamed_from; ++i)
+      names += plain_name(model_.dof_names[static_cast<std::size_t>(i)]) + ',' + std::to_string(i + 1) + '\n';
+    to.names = add("names.csv", names);
+    to.bar.reset();
+    if (model_.unnamed_to <= largest_whole) to.highest_frequency = 0;
+  }
+
+  void add_shapes(std::vector<scene::Part>& excitation) {
+    std::size_t next = 0;  // of the model's excitations, one for each part of a shape
+    for (std::size_t i = 0; i < excitation.size(); ++i) {
+      if (scene::shape_of(excitation[i]) == nullptr) {
+        ++next;
+        continue;
+      }
+      auto& shape = excitation[i].options.as<scene::Shape>();
+      for (scene::ShapeFile* file : {&shape.real, &shape.imaginary}) {
+        if (!file->is_given()) continue;
+        const std::string name =
+            "shape_" + std::to_string(i + 1) + (file == &shape.imaginary ? "_imaginary.mtx" : ".mtx");
+        const auto load = model_.excitation[next++].load.head(model_.unnamed_to);
+        *file = {{add(name, vector_market(load)), nullptr, {}}, 1};
+      }
+    }
+  }
+
+  auto take() { return std::move(files_); }
+
+ private:
+  scene::NamedFile add(const std::string& name, std::string content) {
+    files_.emplace_back(name, std::move(content));
+    return {name, std::make_shared<const std::string>(files_.back().second)};
+  }
+  scene::MatrixFile matrix(const std::string& name, const Eigen::MatrixXd& A, MatrixForm form) {
+    return {add(name, matrix_market(A, form, comment_)), nullptr, {}};
+  }
+
+  const Model& model_;
+  std::string comment_;
+  std::vector<std::pair<std::string, std::string>> files_;
+};
+
+}  // namespace
+
+ReducedScene reduced_scene(const scene::Scene& scene, const std::string& folder,
+                           const scene::StopRequest& stop) {
+  check_reduced(scene);
   scene::Scene undamped = scene;  // of the damping that the scene adds
   undamped.damping.clear();
   const Model model = build(undamped, stop);
-
-  ReducedScene reduced;
   scene::Scene copy = scene::from_folder(scene, folder);
-  scene::Matrices& to = *copy.matrices;
-  const scene::Matrices& from = *scene.matrices;
-  const auto text = [](double value) {
-    std::string digits;
-    append(digits, value);
-    return digits;
-  };
-  const std::string comment = "reduced from " + std::to_string(model.reduction->rows) +
-                              " rows, for frequencies up to " + text(from.highest_frequency) + " " +
-                              std::string(scene::unit_name(scene.frequency_unit)) + ", error " +
-                              text(model.reduction->error);
-  const auto add = [&](const std::string& name, std::string content) {
-    reduced.files.emplace_back(name, std::move(content));
-    return scene::NamedFile{name, std::make_shared<const std::string>(reduced.files.back().second)};
-  };
-  const auto add_matrix = [&](const std::string& name, const Eigen::MatrixXd& A, MatrixForm form) {
-    return scene::MatrixFile{add(name, matrix_market(A, form, comment)), nullptr, {}};
-  };
-  const auto form = [](bool unsymmetric) {
-    return unsymmetric ? MatrixForm::general : MatrixForm::symmetric;
-  };
-  Blocks blocks(model);
-  const Eigen::MatrixXd M = blocks.next();
-  to.mass = add_matrix("M.mtx", M, MatrixForm::symmetric);
-  to.stiffness = add_matrix("K.mtx", semidefinite(blocks.next(), M, model.reduction->highest_frequency),
-                            form(from.unsymmetric_stiffness));
-  if (from.damping.matrix) to.damping = add_matrix("C.mtx", blocks.next(), form(from.unsymmetric_damping));
-  if (from.stiffness_speed_squared.matrix)
-    to.stiffness_speed_squared = add_matrix("K2.mtx", blocks.next(), MatrixForm::symmetric);
-  if (from.gyroscopic.matrix) to.gyroscopic = add_matrix("G.mtx", blocks.next(), MatrixForm::skew);
-  if (from.circulatory.matrix) to.circulatory = add_matrix("N.mtx", blocks.next(), MatrixForm::skew);
-  std::string names = "name,row\n";
-  for (int i = 0; i < model.unnamed_from; ++i)
-    names += plain_name(model.dof_names[static_cast<std::size_t>(i)]) + ',' + std::to_string(i + 1) + '\n';
-  to.names = add("names.csv", names);
-  to.bar.reset();
-  if (model.unnamed_to <= largest_whole) to.highest_frequency = 0;
-
-  std::size_t next = 0;  // of the model's excitations, one for each part of a shape
-  for (std::size_t i = 0; i < copy.excitation.size(); ++i) {
-    if (scene::shape_of(copy.excitation[i]) == nullptr) {
-      ++next;
-      continue;
-    }
-    auto& shape = copy.excitation[i].options.as<scene::Shape>();
-    for (scene::ShapeFile* file : {&shape.real, &shape.imaginary}) {
-      if (!file->is_given()) continue;
-      const std::string name =
-          "shape_" + std::to_string(i + 1) + (file == &shape.imaginary ? "_imaginary.mtx" : ".mtx");
-      *file = {{add(name, vector_market(model.excitation[next++].load.head(model.unnamed_to))), nullptr, {}},
-               1};
-    }
-  }
-  reduced.scene = scene::write(copy);
-  return reduced;
+  ReducedFiles files(model, scene);
+  files.add_matrices(*scene.matrices, *copy.matrices);
+  files.add_shapes(copy.excitation);
+  return {scene::write(copy), files.take()};
 }
 
 }  // namespace arcslip::model
