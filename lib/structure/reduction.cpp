@@ -234,6 +234,20 @@ class Reduction {
             .transpose();
   }
 
+  // Empties V; A^-1 times each of these is the beginning of the space.
+  MatrixXd first() {
+    V_.resize(parts_.others, 0);
+    AV_.resize(parts_.others, 0);
+    for (MatrixXd* of : {&P_.M_zb, &P_.C_zb, &P_.K2_zb}) of->resize(0, parts_.kept);
+    for (ProjectedSkew& skew : P_.skew) skew.zb.resize(0, parts_.kept);
+    P_.f_z.resize(0, f_i_.cols());
+    MatrixXd right = nearby(R_, f_i_);
+    if (C_) right = nearby(right, R_C_);
+    if (K2_) right = nearby(right, R_2_);
+    for (const MatrixXd& R : R_S_) right = nearby(right, R);
+    return right;
+  }
+
   // A vector of the space leads to A^-1 times each of these.
   MatrixXd next(const MatrixXd& added) const {
     MatrixXd right = M_.ii * added;
@@ -246,15 +260,7 @@ class Reduction {
   // Makes V, and all that is projected onto it. The estimate of the error.
   double span() {
     const Index most = std::min(most_, parts_.others);
-    V_.resize(parts_.others, 0);
-    AV_.resize(parts_.others, 0);
-    for (MatrixXd* of : {&P_.M_zb, &P_.C_zb, &P_.K2_zb}) of->resize(0, parts_.kept);
-    P_.f_z.resize(0, f_i_.cols());
-    MatrixXd right = nearby(R_, f_i_);
-    if (C_) right = nearby(right, R_C_);
-    if (K2_) right = nearby(right, R_2_);
-    for (ProjectedSkew& skew : P_.skew) skew.zb.resize(0, parts_.kept);
-    for (const MatrixXd& R : R_S_) right = nearby(right, R);
+    MatrixXd right = first();
     double error = HUGE_VAL, least = HUGE_VAL;
     Index estimated = 0;  // vectors at the last estimate
     int since_least = 0;  // estimates
@@ -396,6 +402,12 @@ class Reduction {
       AV_.col(count++) = right.col(j) / norm;
     }
     keep(count);
+    project_from(old);
+  }
+
+  // Onto the vectors of V from `old` on.
+  void project_from(Index old) {
+    const Index count = V_.cols();
     const auto added = V_.rightCols(count - old);
     const auto extend = [&](MatrixXd& square, const MatrixXd& product, double sign = 1) {
       const MatrixXd columns = V_.transpose() * product;
