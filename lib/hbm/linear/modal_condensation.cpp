@@ -142,6 +142,32 @@ bool ModalCondensation::condense(const LinearParts& parts, double s, const Compl
   return parts.changes().empty() || add_changes(parts, g, f, into);
 }
 
+namespace {
+
+// The part of the springs and dampers that changed, of r coordinates and so many columns of the rates.
+void add_change_rates(const LinearParts& parts, const Factors& g, Eigen::Index r, Eigen::Index columns,
+                      Condensed& at) {
+  for (const ChangedPart& change : parts.changes()) {
+    const auto along = [&](Eigen::Index k) {  // d . of a column of (Y, L)
+      Complex sum = 0;
+      for (const auto& [i, d] : change.part->direction.entries())
+        if (i >= r)
+          sum += (k == r ? d : -d) * at.W(i - r, k);
+        else if (i == k)
+          sum += d;
+      return sum;
+    };
+    const Complex by = change.by * g.of(change.part->kind);
+    for (Eigen::Index b = 0; b < columns; ++b) {
+      const Complex force = by * along(b);
+      for (Eigen::Index a = 0; a < r; ++a) at.rates(a, b) += along(a) * force;
+      for (Eigen::Index i = r; i < at.rates.rows(); ++i) at.rates(i, b) += along(i + 1) * force;
+    }
+  }
+}
+
+}  // namespace
+
 // With y = Y (q, force factor) and f' the rate of f, the rates are L^T (Z' Y - f'), L: Y without its last
 // column, then -Z_ll^-1 c_l of each observation.
 void ModalCondensation::differentiate(const LinearParts& parts, int n, Condensed& at) {
@@ -184,23 +210,7 @@ void ModalCondensation::differentiate(const LinearParts& parts, int n, Condensed
         at.rates(r_ + i, b) = -scalar_product(column(at.W, r_ + 1 + i), v, l_);
     }
   });
-  for (const ChangedPart& change : parts.changes()) {
-    const auto along = [&](Eigen::Index k) {  // d . of a column of (Y, L)
-      Complex sum = 0;
-      for (const auto& [i, d] : change.part->direction.entries())
-        if (i >= r_)
-          sum += (k == r_ ? d : -d) * at.W(i - r_, k);
-        else if (i == k)
-          sum += d;
-      return sum;
-    };
-    const Complex by = change.by * g.of(change.part->kind);
-    for (Eigen::Index b = 0; b < columns; ++b) {
-      const Complex force = by * along(b);
-      for (Eigen::Index a = 0; a < r_; ++a) at.rates(a, b) += along(a) * force;
-      for (Eigen::Index i = 0; i < observations; ++i) at.rates(r_ + i, b) += along(r_ + 1 + i) * force;
-    }
-  }
+  add_change_rates(parts, g, r_, columns, at);
   at.has_rates = true;
 }
 
