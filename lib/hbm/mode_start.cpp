@@ -96,6 +96,67 @@ std::optional<ComplexVector> driven_shape(const std::vector<const LinearMode*>& 
   return shape / shape.norm();
 }
 
+// Why modes of one frequency have no shape to start from.
+std::string not_driven(int mode, std::size_t count) {
+  return "mode " + std::to_string(mode) + " is one of " + std::to_string(count) +
+         " with its frequency, so that none has a shape of its own, and the excitation of harmonic 1, whose "
+         "motion would be taken, drives none of them; excite them, or tell the modes apart by a small change "
+         "of a mass or a spring";
+}
+
+std::string not_single(int mode, double amplitude) {
+  return "mode " + std::to_string(mode) +
+         " shares its frequency with others, and the combination that the excitation drives is no single "
+         "motion at " +
+         text(amplitude) +
+         " m: while all contacts stick, every combination is one, and without symmetry none need be; "
+         "begin at an amplitude at which contacts slip, or tell the modes apart by a small change of a mass "
+         "or a spring";
+}
+
+// Why a mode of this shape is none to start from; unknowns: coordinates that elements move.
+std::string no_shape(int mode, const LinearMode& linear, const ComplexVector& shape, Complex in_response,
+                     Eigen::Index unknowns) {
+  const double least = at_a_node * shape.cwiseAbs().maxCoeff();
+  if (std::abs(in_response) <= least)
+    return "mode " + std::to_string(mode) +
+           " does not move the response, which is at one of its nodes; choose another response";
+  if (shape.head(unknowns).cwiseAbs().maxCoeff() <= least)
+    return "mode " + std::to_string(mode) + " moves no element: it is linear, of " + text(linear.omega) +
+           " rad/s and the damping ratio " + text(linear.damping_ratio + 0.0) + " at every amplitude";
+  return {};
+}
+
+// Sets the shape per unit of the response, and whether no other mode has its frequency. Returns why there is
+// none.
+std::string set_shape(const HbmProblem& motions, const model::Model& excited,
+                      const std::vector<LinearMode>& modes, int mode, ComplexVector& shape, bool& alone) {
+  const auto j = static_cast<std::size_t>(mode - 1);
+  if (std::string why = no_oscillation(modes, j); !why.empty()) return why;
+  const Eigen::MatrixXd& P = motions.coordinates().P;
+  const auto same = together(modes, j);
+  alone = same.size() == 1;
+  shape = modes[j].shape.cast<Complex>();
+  if (!alone) {
+    const auto driven = driven_shape(same, driving_forces(excited, P, modes[j].omega));
+    if (!driven) return not_driven(mode, same.size());
+    shape = *driven;
+  }
+  const Vector response = P.transpose() * motions.model().response;
+  const Complex in_response = response.cast<Complex>().dot(shape);
+  std::string why = no_shape(mode, modes[j], shape, in_response, motions.coordinates().unknowns);
+  if (why.empty()) shape /= in_response;
+  return why;
+}
+
+// That of mode j; without one yet, as where the mean of a contact holds the structure, that of a neighbour.
+double frequency_about(const std::vector<LinearMode>& modes, std::size_t j) {
+  if (modes[j].omega != 0) return modes[j].omega;
+  const auto other =
+      std::find_if(modes.begin(), modes.end(), [](const auto& each) { return each.omega != 0; });
+  return other == modes.end() ? 0 : other->omega;
+}
+
 // Whether the motion at a solution of the mode's equations has no neighbours of the same amplitude.
 bool is_isolated(const ModeProblem& problem, const Vector& v) {
   const auto at = problem.evaluator();
@@ -146,10 +207,7 @@ ModeStart mode_start(const std::shared_ptr<const model::Model>& model, const mod
   const HbmProblem plain(model, model->harmonics, amplitude, 1, 0.0);
   std::vector<LinearMode> modes = linear_modes(plain, parameters_at(plain, 1), nullptr, 1);
   if (start.no_mode = no_oscillation(modes, j); modes.size() <= j) return start;
-  // Without a frequency yet, as where the mean of a contact holds the structure: that of a neighbour.
-  double omega = modes[j].omega;
-  for (const LinearMode& each : modes)
-    if (omega == 0) omega = each.omega;
+  double omega = frequency_about(modes, j);
   if (omega == 0) return start;
 
   const auto motions = std::make_shared<const HbmProblem>(model, model->harmonics, amplitude, omega, omega);
@@ -165,36 +223,9 @@ ModeStart mode_start(const std::shared_ptr<const model::Model>& model, const mod
   ComplexVector shape;  // per unit of the response
   bool alone = true;    // no other mode has its frequency
   for (int pass = 0;; ++pass) {
-    if (start.no_mode = no_oscillation(modes, j); !start.no_mode.empty()) return start;
-    const LinearMode& linear = modes[j];
-    omega = p[model::frequency] = linear.omega;
-    shape = linear.shape.cast<Complex>();
-    const auto same = together(modes, j);
-    if (alone = same.size() == 1; !alone) {
-      const auto driven = driven_shape(same, driving_forces(excited, motions->coordinates().P, omega));
-      if (!driven) {
-        start.no_mode = "mode " + std::to_string(mode) + " is one of " + std::to_string(same.size()) +
-                        " with its frequency, so that none has a shape of its own, and the excitation of "
-                        "harmonic 1, whose motion would be taken, drives none of them; excite them, or tell "
-                        "the modes apart by a small change of a mass or a spring";
-        return start;
-      }
-      shape = *driven;
-    }
-    const double largest = shape.cwiseAbs().maxCoeff();
-    const Complex in_response = response.cast<Complex>().dot(shape);
-    if (std::abs(in_response) <= at_a_node * largest) {
-      start.no_mode = "mode " + std::to_string(mode) +
-                      " does not move the response, which is at one of its nodes; choose another response";
-      return start;
-    }
-    if (shape.head(motions->coordinates().unknowns).cwiseAbs().maxCoeff() <= at_a_node * largest) {
-      start.no_mode = "mode " + std::to_string(mode) + " moves no element: it is linear, of " + text(omega) +
-                      " rad/s and the damping ratio " + text(linear.damping_ratio + 0.0) +
-                      " at every amplitude";
-      return start;
-    }
-    shape /= in_response;
+    start.no_mode = set_shape(*motions, excited, modes, mode, shape, alone);
+    if (!start.no_mode.empty()) return start;
+    omega = p[model::frequency] = modes[j].omega;
     if (pass == 2) break;
     const double tiny = std::pow(10, -decades) * amplitude;
     if (at->move_to(*rest + tiny * unknowns_of(*motions, shape), p, continuation::Needs::jacobian) !=
@@ -217,19 +248,12 @@ ModeStart mode_start(const std::shared_ptr<const model::Model>& model, const mod
         return start;
     }
   }
-  if (!alone) {
-    start.no_mode = "mode " + std::to_string(mode) +
-                    " shares its frequency with others, and the combination that the excitation drives is no "
-                    "single motion at " +
-                    text(amplitude) +
-                    " m: while all contacts stick, every combination is one, and without symmetry none need "
-                    "be; begin at an amplitude at which contacts slip, or tell the modes apart by a small "
-                    "change of a mass or a spring";
-    return start;
-  }
-  start.failure = "Newton's method failed from the linear mode of " + text(omega) +
-                  " rad/s, at amplitudes from " + text(amplitude) + " m down to " +
-                  text(std::pow(10, -decades) * amplitude) + " m";
+  if (alone)
+    start.failure = "Newton's method failed from the linear mode of " + text(omega) +
+                    " rad/s, at amplitudes from " + text(amplitude) + " m down to " +
+                    text(std::pow(10, -decades) * amplitude) + " m";
+  else
+    start.no_mode = not_single(mode, amplitude);
   return start;
 }
 
