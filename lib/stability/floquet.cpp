@@ -141,6 +141,30 @@ struct Floquet::Impl {
   // The courses, and the changes of all of them from the middle of an interval without one: a long one in
   // which the fewest sliders rest, as each of these is one more start.
   bool follow(const elements::Harmonics& harmonics, const std::vector<ElementCourse>& elements) {
+    if (!follow_parts(harmonics, elements)) return false;
+    choose_start();
+    for (Change& change : changes) {
+      change.theta -= start;
+      if (change.theta < 0) change.theta += elements::whole_turn;
+    }
+    sort_changes();
+    while (!changes.empty() && changes.back().theta >= span) changes.pop_back();
+    breaks.clear();
+    for (const double theta : varying.breaks()) {
+      const double from_start = std::fmod(theta - start, span);
+      breaks.push_back(from_start < 0 ? from_start + span : from_start);
+    }
+    std::sort(breaks.begin(), breaks.end());
+    return true;
+  }
+
+  void sort_changes() {
+    std::stable_sort(changes.begin(), changes.end(),
+                     [](const Change& a, const Change& b) { return a.theta < b.theta; });
+  }
+
+  // The courses of all automata, and their changes with those of the coefficients.
+  bool follow_parts(const elements::Harmonics& harmonics, const std::vector<ElementCourse>& elements) {
     changes.clear();
     int expanded = -1;  // the element whose motion `series` is
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -157,8 +181,12 @@ struct Floquet::Impl {
     }
     for (std::size_t i = 0; i < varying.changes().size(); ++i)
       changes.push_back({varying.changes()[i].theta, i, 0, true});
-    std::stable_sort(changes.begin(), changes.end(),
-                     [](const Change& a, const Change& b) { return a.theta < b.theta; });
+    sort_changes();
+    return true;
+  }
+
+  // In a long interval between two changes in which few automata rest.
+  void choose_start() {
     const auto length = [&](std::size_t k) {
       const bool last = k + 1 == changes.size();
       return (last ? changes.front().theta + elements::whole_turn : changes[k + 1].theta) - changes[k].theta;
@@ -187,20 +215,6 @@ struct Floquet::Impl {
       its_length = is_long;
       start = changes[k].theta + 0.5 * is_long;
     }
-    for (Change& change : changes) {
-      change.theta -= start;
-      if (change.theta < 0) change.theta += elements::whole_turn;
-    }
-    std::stable_sort(changes.begin(), changes.end(),
-                     [](const Change& a, const Change& b) { return a.theta < b.theta; });
-    while (!changes.empty() && changes.back().theta >= span) changes.pop_back();
-    breaks.clear();
-    for (const double theta : varying.breaks()) {
-      const double from_start = std::fmod(theta - start, span);
-      breaks.push_back(from_start < 0 ? from_start + span : from_start);
-    }
-    std::sort(breaks.begin(), breaks.end());
-    return true;
   }
 
   void begin() {
