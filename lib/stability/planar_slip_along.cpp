@@ -44,31 +44,39 @@ bool DiscCourse::follow(const elements::Harmonics& harmonics, const Matrix& q, d
       add(each.state, each.begin, each.end, each.first_panel, each.last_panel);
     full_stick_ = found.full_stick();
   } else {
-    for (const auto& [begin, end] : normal.closed()) {
-      if (!phases_.empty()) add(State::open, phases_.back().end, begin);
-      add(State::slip, begin, end);
-    }
-    const double first = phases_.empty() ? 0 : phases_.front().begin;
-    const double last = phases_.empty() ? 0 : phases_.back().end;
-    if (last < first + elements::whole_turn) add(State::open, last, first + elements::whole_turn);
+    add_without_friction(normal.closed());
   }
-  const std::size_t count = phases_.size();
-  for (std::size_t k = 0; k < count && count > 1; ++k) {
-    Phase& phase = phases_[k];
-    changes_.push_back(within_turn(phase.begin));
-    if (!has_friction(phase)) continue;
-    const double cut = std::min(cut_angle, cut_share * (phase.end - phase.begin));
-    if (phases_[k == 0 ? count - 1 : k - 1].state == State::open) phase.from += cut;
-    if (phases_[k + 1 == count ? 0 : k + 1].state == State::open) phase.to -= cut;
-    if (phase.from > phase.begin)
-      breaks_.push_back(within_turn(phase.from));
-    else
-      phase.settled = settled_from(phase);
-    if (phase.to < phase.end) breaks_.push_back(within_turn(phase.to));
-    if (phase.settled > phase.begin && phase.settled < phase.to)
-      breaks_.push_back(within_turn(phase.settled));
+  for (std::size_t k = 0; k < phases_.size() && phases_.size() > 1; ++k) {
+    changes_.push_back(within_turn(phases_[k].begin));
+    if (has_friction(phases_[k])) cut_ends(k);
   }
   return true;
+}
+
+// Slip where the contact is closed.
+void DiscCourse::add_without_friction(std::span<const std::pair<double, double>> closed) {
+  for (const auto& [begin, end] : closed) {
+    if (!phases_.empty()) add(State::open, phases_.back().end, begin);
+    add(State::slip, begin, end);
+  }
+  const double first = phases_.empty() ? 0 : phases_.front().begin;
+  const double last = phases_.empty() ? 0 : phases_.back().end;
+  if (last < first + elements::whole_turn) add(State::open, last, first + elements::whole_turn);
+}
+
+// Leaves out the ends of a phase next to openings and closings, and finds where its slip has settled.
+void DiscCourse::cut_ends(std::size_t k) {
+  const std::size_t count = phases_.size();
+  Phase& phase = phases_[k];
+  const double cut = std::min(cut_angle, cut_share * (phase.end - phase.begin));
+  if (phases_[k == 0 ? count - 1 : k - 1].state == State::open) phase.from += cut;
+  if (phases_[k + 1 == count ? 0 : k + 1].state == State::open) phase.to -= cut;
+  if (phase.from > phase.begin)
+    breaks_.push_back(within_turn(phase.from));
+  else
+    phase.settled = settled_from(phase);
+  if (phase.to < phase.end) breaks_.push_back(within_turn(phase.to));
+  if (phase.settled > phase.begin && phase.settled < phase.to) breaks_.push_back(within_turn(phase.settled));
 }
 
 // By longer and longer steps.

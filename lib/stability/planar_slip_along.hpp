@@ -29,6 +29,8 @@
 #include <arcslip/time/equation/equation_of_motion.hpp>
 
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace arcslip::time {
@@ -93,6 +95,8 @@ class DiscCourse {
   double settled_from(const Phase& phase) const;
   double radius_by_normal() const { return contact_.mu * contact_.k_n / contact_.k_t; }
   bool has_friction(const Phase& phase) const { return phase.first_panel < phase.last_panel; }
+  void add_without_friction(std::span<const std::pair<double, double>> closed);
+  void cut_ends(std::size_t k);
   void add(State state, double begin, double end, std::size_t first_panel = 0, std::size_t last_panel = 0);
 
   elements::PlaneFriction::Contact contact_;
