@@ -27,10 +27,6 @@ constexpr double least_beyond = 1e-6;  // of the pole's frequency: nearer, a sta
 constexpr std::array farther_beyond{1e-4, 1e-2};  // of it, where no response is found there
 constexpr double without_course = 1.0 / 150;  // of the window: as far beyond a pole that the branch begins at
 
-}  // namespace
-
-namespace {
-
 // The order of the largest harmonic of an element's motion q along one direction.
 int largest_order(const elements::Harmonics& h, elements::In q) {
   int largest = 1;
@@ -43,36 +39,31 @@ int largest_order(const elements::Harmonics& h, elements::In q) {
   return largest;
 }
 
-// power: of the amplitude, from which on an elastic force bounds the response.
-UnboundedGrowth balance(const hbm::HbmProblem& problem, const continuation::Vector& p,
-                        const continuation::Vector& u, double power) {
-  const auto& model = problem.model();
-  const auto evaluator = problem.hbm_evaluator();
-  UnboundedGrowth result;
-  std::ostringstream text;
-  text.precision(6);
-  if (evaluator->move_to(u, p, continuation::Needs::residual) != continuation::Evaluated::ok) {
-    result.message = "the response overflowed";
-    return result;
-  }
-  const double viscous =
-      evaluator->stiffness().viscous_energy(u, 1) / std::numbers::pi;  // over amplitude^2 below
-  // Work of the forces: those of the excitation and of the sliders, on the motion u, over pi and its
-  // amplitude.
-  const auto& h = problem.harmonics();
-  double amplitude = 0, friction = 0;
+// What the elements do to a large motion u.
+struct ElementsAtLarge {
+  double amplitude = 0;
+  double friction = 0;  // work of the sliders over pi
   bool restoring = false, losing = false;
-  for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    const auto& element = model.elements[e];
+};
+
+// power: of the amplitude, from which on an elastic force bounds the response.
+ElementsAtLarge elements_at_large(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& evaluator,
+                                  const continuation::Vector& p, const continuation::Vector& u,
+                                  double power) {
+  const auto& elements = problem.model().elements;
+  const auto& h = problem.harmonics();
+  ElementsAtLarge all;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const auto& element = elements[e];
     double sliders = 0;
     for (std::size_t i = 0; i < element.directions.size(); ++i) {
-      const auto q = evaluator->element_motion(e).segment(static_cast<Eigen::Index>(i) * h.size(), h.size());
+      const auto q = evaluator.element_motion(e).segment(static_cast<Eigen::Index>(i) * h.size(), h.size());
       const double size = q.norm();
       const elements::Traits traits = element.law->traits(element.fields(p), static_cast<int>(i));
-      amplitude = std::max(amplitude, size);
-      restoring = restoring || (traits.far_power >= power && size > negligible * u.norm());
+      all.amplitude = std::max(all.amplitude, size);
+      all.restoring = all.restoring || (traits.far_power >= power && size > negligible * u.norm());
       if (std::isinf(traits.far_work)) {
-        losing = losing || size > least_part * u.norm();
+        all.losing = all.losing || size > least_part * u.norm();
         continue;
       }
       // The motion is almost wholly in the resonant harmonic n: it goes to and fro n times in a period.
@@ -81,15 +72,23 @@ UnboundedGrowth balance(const hbm::HbmProblem& problem, const continuation::Vect
     // A normal load that grows with the motion makes it more.
     const Eigen::Index displacements = static_cast<Eigen::Index>(element.directions.size()) * h.size();
     if (element.law->has_contact() && element.directions.size() > 1)
-      sliders = std::max(sliders, element_energy(h, evaluator->element_motion(e),
-                                                 evaluator->element(e).force().head(displacements)) /
+      sliders = std::max(sliders, element_energy(h, evaluator.element_motion(e),
+                                                 evaluator.element(e).force().head(displacements)) /
                                       std::numbers::pi);
-    friction += sliders;
+    all.friction += sliders;
   }
-  if (model.elements.empty()) amplitude = u.norm();
+  if (elements.empty()) all.amplitude = u.norm();
+  return all;
+}
+
+// The work of the excitation over pi: at resonance the motion is in quadrature to the force, and that of
+// harmonic n is n |F_n| |X_n|.
+double excitation_work(const hbm::HbmProblem& problem, const hbm::HbmEvaluator& evaluator,
+                       const continuation::Vector& u) {
+  const auto& h = problem.harmonics();
   continuation::Vector f(u.size());
-  evaluator->stiffness().force(f);
-  // At resonance the motion is in quadrature to the force: the work of harmonic n is n |F_n| |X_n|.
+  evaluator.stiffness().force(f);
+  double all = 0;
   for (int j = 0; j < h.sines(); ++j) {
     const int n = h.sine_order(j);
     std::complex<double> work = 0;
@@ -97,24 +96,42 @@ UnboundedGrowth balance(const hbm::HbmProblem& problem, const continuation::Vect
       const int c = i * h.size() + h.cosine_index(n), s = i * h.size() + h.sine_index(n);
       work += std::complex<double>(f[c], -f[s]) * std::complex<double>(u[c], u[s]);
     }
-    result.input += n * std::abs(work);
+    all += n * std::abs(work);
   }
-  result.input /= amplitude;
-  result.dissipation = friction / amplitude;
-  const bool damped = viscous > negligible * result.input * amplitude;
+  return all;
+}
+
+// Compares the work of the excitation and of the sliders on the motion u, over pi and its amplitude.
+UnboundedGrowth balance(const hbm::HbmProblem& problem, const continuation::Vector& p,
+                        const continuation::Vector& u, double power) {
+  const auto evaluator = problem.hbm_evaluator();
+  UnboundedGrowth result;
+  if (evaluator->move_to(u, p, continuation::Needs::residual) != continuation::Evaluated::ok) {
+    result.message = "the response overflowed";
+    return result;
+  }
+  const double viscous =
+      evaluator->stiffness().viscous_energy(u, 1) / std::numbers::pi;  // over amplitude^2 below
+  const ElementsAtLarge of = elements_at_large(problem, *evaluator, p, u, power);
+  result.input = excitation_work(problem, *evaluator, u) / of.amplitude;
+  result.dissipation = of.friction / of.amplitude;
+  const bool damped = viscous > negligible * result.input * of.amplitude;
   result.unbounded =
-      !damped && !restoring && !losing && result.dissipation <= result.input * (1 + negligible);
+      !damped && !of.restoring && !of.losing && result.dissipation <= result.input * (1 + negligible);
+  std::ostringstream text;
+  text.precision(6);
   if (result.unbounded) {
     text << "the resonance is unbounded: it has no viscous damping, and friction dissipates "
          << result.dissipation << " N of the " << result.input
          << " N supplied by the excitation (work per period over pi and amplitude)";
   } else {
-    text << (std::isfinite(amplitude) ? "beyond " + results::quantity(amplitude, "m") : "at any amplitude")
+    text << (std::isfinite(of.amplitude) ? "beyond " + results::quantity(of.amplitude, "m")
+                                         : "at any amplitude")
          << " the response is bounded by "
-         << (damped      ? "viscous damping"
-             : restoring ? "a nonlinear spring"
-             : losing    ? "a nonlinear damper"
-                         : "friction");
+         << (damped         ? "viscous damping"
+             : of.restoring ? "a nonlinear spring"
+             : of.losing    ? "a nonlinear damper"
+                            : "friction");
   }
   result.message = text.str();
   return result;
