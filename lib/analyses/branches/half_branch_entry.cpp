@@ -142,6 +142,22 @@ std::optional<HalfBranch> WiderBranchPoints::locate(const std::vector<Vector>& b
   return {};
 }
 
+// From u_ and p_, in the direction of a vector of the added unknowns.
+HalfBranch WiderBranchPoints::half_branch_along(const Vector& added) const {
+  HalfBranch found;
+  found.problem = wide_;
+  found.x.resize(u_.size() + 1);
+  found.x << u_, p_[model::frequency];
+  found.direction = Vector::Zero(u_.size() + 1);
+  for (std::size_t i = 0; i < added_.size(); ++i)
+    found.direction[added_[i]] = added[static_cast<Eigen::Index>(i)];
+  continuation::Counts counts;
+  const continuation::Corrector with(*wide_, p_, model::frequency, {}, counts);
+  found.direction /= std::sqrt(with.dot(found.direction, found.direction));
+  found.angle = std::acos(0.0);
+  return found;
+}
+
 // Between two points of the branch with different signs.
 std::optional<HalfBranch> WiderBranchPoints::refine(const Vector& from, const Vector& to, std::string& why) {
   const Eigen::Index n = from.size() - 1;
@@ -183,17 +199,7 @@ std::optional<HalfBranch> WiderBranchPoints::refine(const Vector& from, const Ve
           why = "several branches cross there at once, as in symmetric structures";
           return {};
         }
-        HalfBranch found;
-        found.problem = wide_;
-        found.x.resize(u_.size() + 1);
-        found.x << u_, v[n];
-        found.direction = Vector::Zero(u_.size() + 1);
-        for (std::size_t i = 0; i < added_.size(); ++i)
-          found.direction[added_[i]] = right[static_cast<Eigen::Index>(i)];
-        continuation::Corrector with(*wide_, p_, model::frequency, {}, counts);
-        found.direction /= std::sqrt(with.dot(found.direction, found.direction));
-        found.angle = std::acos(0.0);
-        return found;
+        return half_branch_along(right);
       }
     }
     const double middle = 0.5 * (a + b);

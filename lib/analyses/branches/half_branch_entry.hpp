@@ -71,6 +71,7 @@ class WiderBranchPoints {
 
   bool move_to(const Vector& v);
   int sign_at(const Vector& v);
+  HalfBranch half_branch_along(const Vector& added) const;
   std::optional<HalfBranch> refine(const Vector& from, const Vector& to, std::string& why);
 
   std::shared_ptr<const hbm::HbmProblem> narrow_, wide_;
