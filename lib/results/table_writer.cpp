@@ -44,34 +44,39 @@ const Value* find(const Object& object, std::span<const std::string> path) {
   return inner ? find(*inner, path.subspan(1)) : nullptr;
 }
 
+bool is_set(const Object& object, const std::string& name) {
+  const Value* flag = name.empty() ? nullptr : find(object, {&name, 1});
+  return flag && std::holds_alternative<bool>(flag->get()) && std::get<bool>(flag->get());
+}
+
+bool stands_instead(const Object& object, const Shown& each) {
+  const Value* word = each.instead.of.empty() ? nullptr : find(object, {&each.instead.of, 1});
+  const auto* text = word ? std::get_if<std::string>(&word->get()) : nullptr;
+  const auto& words = each.instead.words;
+  return text && is_set(object, each.path.front()) &&
+         std::find(words.begin(), words.end(), *text) != words.end();
+}
+
+bool is_doubtful(const Object& object, const std::string& name) {
+  const Value* value = find(object, {&name, 1});
+  const auto* number = value ? std::get_if<double>(&value->get()) : nullptr;
+  return is_set(object, name) || (number && !std::isfinite(*number));
+}
+
 /// The cells of what is shown of an object, or else of the facts of its result.
 Row cells(const std::vector<Shown>& shown, const Object& object, const Object& facts) {
   Row row;
-  const auto is_set = [&](const std::string& name) {
-    const Value* flag = name.empty() ? nullptr : find(object, {&name, 1});
-    return flag && std::holds_alternative<bool>(flag->get()) && std::get<bool>(flag->get());
-  };
-  const auto stands_instead = [&](const Shown& each) {
-    const Value* word = each.instead.of.empty() ? nullptr : find(object, {&each.instead.of, 1});
-    const auto* text = word ? std::get_if<std::string>(&word->get()) : nullptr;
-    const auto& words = each.instead.words;
-    return text && is_set(each.path.front()) && std::find(words.begin(), words.end(), *text) != words.end();
-  };
-  const auto is_doubtful = [&](const std::string& name) {
-    const Value* value = find(object, {&name, 1});
-    const auto* number = value ? std::get_if<double>(&value->get()) : nullptr;
-    return is_set(name) || (number && !std::isfinite(*number));
-  };
   for (const Shown& each : shown) {
     const Value* value = find(object, each.path);
     if (!value) value = find(facts, each.path);
     const Value* estimate = each.error.empty() ? nullptr : find(object, each.error);
     const auto* error = estimate ? std::get_if<double>(&estimate->get()) : nullptr;
     const double size = error && std::isfinite(*error) ? *error * each.error_unit : 0;
-    const bool doubtful = std::any_of(each.doubtful.begin(), each.doubtful.end(), is_doubtful);
+    const bool doubtful = std::any_of(each.doubtful.begin(), each.doubtful.end(),
+                                      [&](const std::string& name) { return is_doubtful(object, name); });
     row.push_back(value ? text_of(*value, each.format, size, doubtful) : no_value);
-    if (row.back() == no_value && is_set(each.otherwise)) row.back() = each.otherwise;
-    if (stands_instead(each)) row.back() = each.instead.text;
+    if (row.back() == no_value && is_set(object, each.otherwise)) row.back() = each.otherwise;
+    if (stands_instead(object, each)) row.back() = each.instead.text;
   }
   return row;
 }
