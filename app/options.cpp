@@ -67,20 +67,19 @@ struct Texts {
 };
 
 /// The options of every verb that takes a scene.
-void add_scene_options(CLI::App* verb, CommandOptions& options, Texts& texts) {
-  verb->add_option("SCENE", options.scene, "scene file (JSON, format arcslip-scene-1)")
+void add_scene_options(CLI::App& verb, CommandOptions& options, Texts& texts) {
+  verb.add_option("SCENE", options.scene, "scene file (JSON, format arcslip-scene-1)")
       ->required()
       ->type_name("");
-  verb->footer(std::string(exit_codes));
-  verb->add_option("--set", texts.set,
-                   "set a parameter, e.g. damper.normal_load=3; overrides its values in for_each, cases and "
-                   "scatter; may be repeated")
+  verb.footer(std::string(exit_codes));
+  verb.add_option("--set", texts.set,
+                  "set a parameter, e.g. damper.normal_load=3; overrides its values in for_each, cases and "
+                  "scatter; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME.FIELD=VALUE");
-  verb->add_option("--harmonics", texts.harmonics, "highest harmonic of the harmonic balance")
-      ->type_name("N");
-  verb->add_option("--accuracy", texts.accuracy,
-                   "relative accuracy of amplitudes, by which studies choose the highest harmonic")
+  verb.add_option("--harmonics", texts.harmonics, "highest harmonic of the harmonic balance")->type_name("N");
+  verb.add_option("--accuracy", texts.accuracy,
+                  "relative accuracy of amplitudes, by which studies choose the highest harmonic")
       ->type_name("E");
 }
 
@@ -123,6 +122,21 @@ void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts&
   verb.add_flag("--quiet", options.quiet, "print only errors, no progress and no notes");
 }
 
+void add_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts& texts) {
+  if (of.type != nullptr) of.keys = options_of(of.type->keys());
+  add_scene_options(verb, options, texts);
+  if (of.name == reduce_verb) {
+    verb.add_option("--out", options.out,
+                    "folder for the matrices and the scene (default: out/<name of the scene file>_reduced)")
+        ->type_name("DIR");
+    verb.add_flag("--quiet", options.quiet, "print only errors");
+  } else if (of.name == check_verb) {
+    verb.add_flag("--quiet", options.quiet, "print nothing if the scene is valid");
+  } else {
+    add_study_options(verb, of, options, texts);
+  }
+}
+
 /// The number given for a key by an option, if any.
 std::optional<double> number_of(const CommandOptions& options, const std::string& key) {
   for (const GivenKey& given : options.keys) {
@@ -154,6 +168,29 @@ bool given(const CLI::App& verb, const std::string& option) {
   return found != nullptr && found->count() > 0;
 }
 
+void check_values_given(const CLI::App& verb, const Texts& texts) {
+  for (const auto& [option, text] : {std::pair{"--harmonics", &texts.harmonics},
+                                     {"--accuracy", &texts.accuracy},
+                                     {"--combinations", &texts.combinations},
+                                     {"--threads", &texts.threads}})
+    if (given(verb, option) && text->empty()) throw UsageError(std::string(option) + ": found no value");
+}
+
+/// Reads the texts of the verb's options into their values.
+void read_texts(const CLI::App& verb, const Verb& of, const Texts& texts, CommandOptions& options) {
+  for (const std::string& text : texts.set) options.set.push_back(assignment(text));
+  options.harmonics = whole_number("--harmonics", texts.harmonics, "a whole number, the highest harmonic");
+  options.accuracy = accuracy(texts.accuracy);
+  options.combinations =
+      whole_number("--combinations", texts.combinations, "a whole number, the combinations at most");
+  options.threads = whole_number("--threads", texts.threads, "a whole number, the threads");
+  if (options.threads && (*options.threads < 1 || *options.threads > most_threads))
+    throw UsageError("--threads " + texts.threads + ": must be an integer from 1 to " +
+                     std::to_string(most_threads));
+  for (const KeyOption& option : of.keys)
+    if (given(verb, option.name())) options.keys.push_back(option.given());
+}
+
 }  // namespace
 
 std::variant<CommandOptions, Information> parse(int argc, const char* const* argv,
@@ -174,19 +211,7 @@ std::variant<CommandOptions, Information> parse(int argc, const char* const* arg
     CLI::App* verb = app.add_subcommand(each.name, each.help);
     verb->group("Verbs");
     verb_of.emplace(verb, &each);
-    if (argc < 2 || each.name != argv[1]) continue;  // its options are not needed
-    if (each.type != nullptr) each.keys = options_of(each.type->keys());
-    add_scene_options(verb, options, texts);
-    if (each.name == reduce_verb) {
-      verb->add_option(
-              "--out", options.out,
-              "folder for the matrices and the scene (default: out/<name of the scene file>_reduced)")
-          ->type_name("DIR");
-      verb->add_flag("--quiet", options.quiet, "print only errors");
-    } else if (each.name == check_verb)
-      verb->add_flag("--quiet", options.quiet, "print nothing if the scene is valid");
-    else
-      add_study_options(*verb, each, options, texts);
+    if (argc >= 2 && each.name == argv[1]) add_options(*verb, each, options, texts);  // no others are needed
   }
 
   CLI::App* const schema = app.add_subcommand("schema", "print the JSON Schema of scene files, for editors");
@@ -209,26 +234,12 @@ std::variant<CommandOptions, Information> parse(int argc, const char* const* arg
     throw UsageError(results::visible(error.what()) + "\n" + hint);
   }
   const CLI::App* verb = app.get_subcommands().front();
-  for (const auto& [option, text] : {std::pair{"--harmonics", &texts.harmonics},
-                                     {"--accuracy", &texts.accuracy},
-                                     {"--combinations", &texts.combinations},
-                                     {"--threads", &texts.threads}})
-    if (given(*verb, option) && text->empty()) throw UsageError(std::string(option) + ": found no value");
+  check_values_given(*verb, texts);
   if (verb == schema) return Information{scene::json_schema(catalogue)};
   const Verb& chosen = *verb_of.at(verb);
   options.verb = chosen.name;
   options.type = chosen.type;
-  for (const std::string& text : texts.set) options.set.push_back(assignment(text));
-  options.harmonics = whole_number("--harmonics", texts.harmonics, "a whole number, the highest harmonic");
-  options.accuracy = accuracy(texts.accuracy);
-  options.combinations =
-      whole_number("--combinations", texts.combinations, "a whole number, the combinations at most");
-  options.threads = whole_number("--threads", texts.threads, "a whole number, the threads");
-  if (options.threads && (*options.threads < 1 || *options.threads > most_threads))
-    throw UsageError("--threads " + texts.threads + ": must be an integer from 1 to " +
-                     std::to_string(most_threads));
-  for (const KeyOption& option : chosen.keys)
-    if (given(*verb, option.name())) options.keys.push_back(option.given());
+  read_texts(*verb, chosen, texts, options);
   check_consistent(options, given(*verb, "--json"), given(*verb, "--csv"), given(*verb, "--out"));
   return options;
 }
