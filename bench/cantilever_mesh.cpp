@@ -69,6 +69,69 @@ void brick(double a, double b, double c, Square& K, Square& M) {
       all.topRightCorner<24, 9>() * all.bottomRightCorner<9, 9>().ldlt().solve(all.bottomLeftCorner<9, 24>());
 }
 
+// A mesh of bricks, held at x = 0.
+class Cantilever {
+ public:
+  Cantilever(int nx, int ny, int nz, double length, double width, double height) : nx_(nx), ny_(ny), nz_(nz) {
+    Square Ke, Me;
+    brick(length / nx, width / ny, height / nz, Ke, Me);
+    for (int x = 0; x < nx; ++x)
+      for (int z = 0; z < nz; ++z)
+        for (int y = 0; y < ny; ++y) add(rows_of_brick(x, y, z), Ke, Me);
+  }
+
+  bool write_matrix(const std::string& path, bool mass) const {
+    std::FILE* file = std::fopen(path.c_str(), "w");
+    if (file == nullptr) return false;
+    const int size = 3 * nx_ * (ny_ + 1) * (nz_ + 1);
+    std::fprintf(file, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %zu\n", size, size,
+                 lower_.size());
+    for (const auto& [place, values] : lower_)
+      std::fprintf(file, "%d %d %.12g\n", place.second + 1, place.first + 1,
+                   mass ? values.second : values.first);
+    return std::fclose(file) == 0;
+  }
+
+  bool write_names(const std::string& path) const {
+    std::ofstream names(path);
+    names << "name,row\n";
+    for (const auto& [name, x] : {std::pair{"mid", nx_ / 2}, std::pair{"tip", nx_}}) {
+      names << name << ',' << row(x, ny_ / 2, nz_, 2) + 1 << '\n';
+      int count = 0;
+      for (int y = 0; y <= ny_ && ny_ >= 2; ++y)
+        if (y != ny_ / 2) names << name << '_' << ++count << ',' << row(x, y, nz_, 2) + 1 << '\n';
+    }
+    return static_cast<bool>(names);
+  }
+
+ private:
+  // In the order x slowest, so that the band is small; -1 where it is held.
+  int row(int x, int y, int z, int d) const {
+    return x == 0 ? -1 : 3 * (((x - 1) * (nz_ + 1) + z) * (ny_ + 1) + y) + d;
+  }
+  std::array<int, 24> rows_of_brick(int x, int y, int z) const {
+    std::array<int, 24> rows{};
+    for (int node = 0; node < 8; ++node)
+      for (int d = 0; d < 3; ++d)
+        rows[static_cast<std::size_t>(3 * node + d)] =
+            row(x + (node & 1), y + (node >> 1 & 1), z + (node >> 2), d);
+    return rows;
+  }
+  void add(const std::array<int, 24>& rows, const Square& Ke, const Square& Me) {
+    for (int i = 0; i < 24; ++i)
+      for (int j = 0; j < 24; ++j) {
+        const int at_i = rows[static_cast<std::size_t>(i)], at_j = rows[static_cast<std::size_t>(j)];
+        if (at_i < at_j || at_j < 0) continue;
+        auto& [k, m] = lower_[{at_j, at_i}];
+        k += Ke(i, j);
+        m += Me(i, j);
+      }
+  }
+
+  int nx_, ny_, nz_;
+  std::map<std::pair<int, int>, std::pair<double, double>> lower_;  // K and M, by column
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -77,51 +140,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::string folder = argv[1];
-  const int nx = std::atoi(argv[2]), ny = std::atoi(argv[3]), nz = std::atoi(argv[4]);
-  const double length = argc == 8 ? std::atof(argv[5]) : 1, width = argc == 8 ? std::atof(argv[6]) : 0.04,
-               height = argc == 8 ? std::atof(argv[7]) : 0.02;
-  Square Ke, Me;
-  brick(length / nx, width / ny, height / nz, Ke, Me);
-  // Rows in the order x slowest, so that the band is small; the nodes at x = 0 are held.
-  const auto row = [&](int x, int y, int z, int d) {
-    return x == 0 ? -1 : 3 * (((x - 1) * (nz + 1) + z) * (ny + 1) + y) + d;
-  };
-  std::map<std::pair<int, int>, std::pair<double, double>> lower;  // by column
-  for (int x = 0; x < nx; ++x)
-    for (int z = 0; z < nz; ++z)
-      for (int y = 0; y < ny; ++y) {
-        std::array<int, 24> rows{};
-        for (int node = 0; node < 8; ++node)
-          for (int d = 0; d < 3; ++d)
-            rows[static_cast<std::size_t>(3 * node + d)] =
-                row(x + (node & 1), y + (node >> 1 & 1), z + (node >> 2), d);
-        for (int i = 0; i < 24; ++i)
-          for (int j = 0; j < 24; ++j) {
-            const int at_i = rows[static_cast<std::size_t>(i)], at_j = rows[static_cast<std::size_t>(j)];
-            if (at_i < at_j || at_j < 0) continue;
-            auto& [k, m] = lower[{at_j, at_i}];
-            k += Ke(i, j);
-            m += Me(i, j);
-          }
-      }
-  const int size = 3 * nx * (ny + 1) * (nz + 1);
-  for (const bool mass : {true, false}) {
-    std::FILE* file = std::fopen((folder + (mass ? "/M.mtx" : "/K.mtx")).c_str(), "w");
-    if (file == nullptr) return 1;
-    std::fprintf(file, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %zu\n", size, size,
-                 lower.size());
-    for (const auto& [place, values] : lower)
-      std::fprintf(file, "%d %d %.12g\n", place.second + 1, place.first + 1,
-                   mass ? values.second : values.first);
-    if (std::fclose(file) != 0) return 1;
-  }
-  std::ofstream names(folder + "/names.csv");
-  names << "name,row\n";
-  for (const auto& [name, x] : {std::pair{"mid", nx / 2}, std::pair{"tip", nx}}) {
-    names << name << ',' << row(x, ny / 2, nz, 2) + 1 << '\n';
-    int count = 0;
-    for (int y = 0; y <= ny && ny >= 2; ++y)
-      if (y != ny / 2) names << name << '_' << ++count << ',' << row(x, y, nz, 2) + 1 << '\n';
-  }
-  return names ? 0 : 1;
+  const auto size = [&](int i, double usual) { return argc == 8 ? std::atof(argv[i]) : usual; };
+  const Cantilever mesh(std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4]), size(5, 1), size(6, 0.04),
+                        size(7, 0.02));
+  const bool written = mesh.write_matrix(folder + "/M.mtx", true) &&
+                       mesh.write_matrix(folder + "/K.mtx", false) && mesh.write_names(folder + "/names.csv");
+  return written ? 0 : 1;
 }
