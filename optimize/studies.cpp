@@ -187,9 +187,9 @@ void add_search(KeysOf<OptimumSettings>& keys) {
                            "random seed of stochastic algorithms: the same seed gives the same run")));
   keys.add(
       of_search(whole("starts", &SearchSettings::starts, 1, largest_search,
-                      "with several parameters or constraints: how many designs local searches start from "
-                      "at most, the scene's own and the lowest of designs spread over the bounds; 1: only "
-                      "its own")));
+                      "with several parameters or constraints: maximum number of local searches, which start "
+                      "at the scene's own design and at the best of designs spread over the bounds; 1: only "
+                      "at its own")));
 }
 
 void add_demands(KeysOf<OptimumSettings>& keys) {

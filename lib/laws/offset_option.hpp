@@ -19,10 +19,9 @@ inline scene::file::KeysOf<OffsetOption> offset_option() {
   static constexpr std::array<scene::file::Word<Offset>, 2> words = {
       {{"centred", Offset::centred}, {"static", Offset::static_loads}}};
   scene::file::KeysOf<OffsetOption> keys;
-  keys.add(
-      scene::file::word("offset", &OffsetOption::offset, words,
-                        "of a slider that sticks throughout the period: between its bounds, without a mean "
-                        "force, or as near to its place without force as they allow, so that it holds one"));
+  keys.add(scene::file::word("offset", &OffsetOption::offset, words,
+                             "where a slider that never slips rests: midway between its limits, without a "
+                             "mean force, or as close as possible to its force-free position, with one"));
   return keys;
 }
 

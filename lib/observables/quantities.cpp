@@ -294,7 +294,7 @@ constexpr Quantity<Stability> of_stability[] = {
 };
 
 constexpr ResponseQuantity of_mode[] = {
-    {"damping_ratio", "-", "of the negative damping in proportion to the masses that balances the losses",
+    {"damping_ratio", "-", "damping ratio of the mode (extended periodic motion concept)",
      value<&Point::damping_ratio>},
     {"energy", "J",
      "kinetic energy and that of springs and elements, from the static displacement, where the kinetic "
@@ -314,7 +314,7 @@ constexpr ResponseQuantity of_mode[] = {
      "was "
      "found",
      synthesis<&Synthesis::true_omega>, has_true_peak},
-    {"synthesis.true_amplitude", "m", "likewise, half the way between the extremes of the response there",
+    {"synthesis.true_amplitude", "m", "likewise, half the difference of the extremes of the response there",
      synthesis<&Synthesis::true_amplitude>, has_true_peak},
 };
 
@@ -333,7 +333,7 @@ constexpr ElementQuantity of_element[] = {
     {"normal_load_min", "N", "likewise, the smallest normal load; 0 in separation",
      element<&Element::normal_load_min>, has_normal_load, is_part_with_normal_load},
     {"mean_force_min", "N",
-     "friction elements that tell it: smallest mean force that is possible with this motion; equal to the "
+     "friction elements for which it is known: smallest mean force possible with this motion; equal to the "
      "largest, unless the element sticks throughout the period",
      element<&Element::mean_force_min>, has_mean_force, is_friction_part},
     {"mean_force_max", "N", "likewise, the largest mean force", element<&Element::mean_force_max>,

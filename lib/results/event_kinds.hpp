@@ -57,7 +57,7 @@ inline constexpr EventKind neimark_sacker{
     "a pair of multipliers is on the unit circle: motions with a second frequency begin or end",
     "responses with stability, curves of bifurcations"};
 inline constexpr EventKind symmetry_breaking{"symmetry_breaking",
-                                             "break of symmetry",
+                                             "symmetry breaking",
                                              {Shape::diamond, 1.1, 1.5},
                                              "motions that are not antisymmetric begin or end at one that is",
                                              "responses with stability, curves of bifurcations"};
@@ -110,7 +110,7 @@ inline constexpr EventKind phase_resonance{
 inline constexpr EventKind corner{"corner",
                                   "corner",
                                   {},
-                                  "the curve reaches or leaves a corner of the response",
+                                  "the curve reaches or leaves a grazing point",
                                   "curves of peaks and folds"};
 inline constexpr EventKind start{
     "start", "start", {}, "where it begins", "modes, branches that leave another one"};

@@ -14,17 +14,17 @@ using results::reasons::user;
 // The values of continuation::StopReason.
 inline constexpr Reason boundary{
     "boundary",
-    "the branch left the frequency window or the parameter range: at the far end, as usual, or, having "
-    "turned back, at the end where it started, which is complete where another branch reaches the far end; a "
-    "peak or a fold may also leave the window"};
+    "the branch left the frequency window or the parameter range: usually at the far end; or, having turned "
+    "back, at the end where it started, which is complete if another branch reaches the far end. A peak or a "
+    "fold may also leave the window"};
 inline constexpr Reason closed{"closed", "the curve closed on itself"};
-inline constexpr Reason event{
-    "event", "a curve could not be continued where it reaches or leaves a corner of the response"};
+inline constexpr Reason event{"event",
+                              "a curve could not be continued where it reaches or leaves a grazing point"};
 inline constexpr Reason start_failed{"start_failed",
                                      "no periodic response, peak, fold or mode was found to start from"};
 inline constexpr Reason step_too_small{
     "step_too_small",
-    "the step size fell below its minimum, as at an end of the branch or where rounding errors dominate"};
+    "the step size fell below its minimum, as at an end of the branch or if rounding errors dominate"};
 inline constexpr Reason state_too_large{
     "state_too_large",
     "the response grew so large, relative to the start, that rounding errors destroy its accuracy"};
@@ -41,11 +41,10 @@ inline constexpr Reason unbounded{
     "unbounded", "the response, or its peak, grows without bound, as at an insufficiently damped resonance"};
 inline constexpr Reason fold{
     "fold",
-    "of curves: they end where the peak meets a minimum of the amplitude over the frequency, where another "
-    "extremum within the period becomes larger, or where the fold meets another at a corner of the response"};
+    "of curves: the peak meets a minimum of the amplitude over the frequency, another extremum within the "
+    "period becomes larger, or the fold meets another at a grazing point"};
 inline constexpr Reason corner{
-    "corner",
-    "of curves: the peak or fold reaches a corner of the response, from which another curve continues"};
+    "corner", "of curves: the peak or fold reaches a grazing point, from which another curve continues"};
 
 inline constexpr Reason resonance{"resonance",
                                   "of curves of Neimark-Sacker points: their pair of multipliers becomes "
@@ -57,16 +56,15 @@ inline constexpr Reason jump{
     "or ends"};
 
 // Branches that leave others.
-inline constexpr Reason branch_point{
-    "branch_point",
-    "a branch that left another one reached a bifurcation of a branch that is known, or of one that is "
-    "not: there it ends"};
+inline constexpr Reason branch_point{"branch_point",
+                                     "a branch that left another one ended at a branch point, of a known "
+                                     "branch or of one that was not traced"};
 
 // Modes.
 inline constexpr Reason no_mode{
     "no_mode",
-    "the structure at rest has no such mode: there are fewer, or it does not oscillate, or does not move the "
-    "response, or friction without a stiffness holds it"};
+    "the structure at rest has no such mode: it has fewer modes, or the mode does not oscillate, does not "
+    "move the response, or is held by friction without a stiffness"};
 
 // Responses at one frequency.
 inline constexpr Reason solved{"solved", "the response was found"};

@@ -29,9 +29,8 @@ constexpr results::EventKind best{
 scene::file::KeysOf<AccuracySettings> keys_of_accuracy() {
   scene::file::KeysOf<AccuracySettings> keys;
   keys.add(scene::file::frequency_range(&AccuracySettings::from, &AccuracySettings::to));
-  keys.add(scene::file::whole(
-      "order", &AccuracySettings::order, 1, highest_order,
-      "the highest order of the harmonics that is tried; the reference has twice as many"));
+  keys.add(scene::file::whole("order", &AccuracySettings::order, 1, highest_order,
+                              "the highest order to try; the reference has twice as many harmonics"));
   return keys;
 }
 

@@ -32,14 +32,14 @@ void add_branch_keys(scene::file::KeysOf<Range>& keys, std::string help) {
   keys.add(scene::file::word("branches", &Range::branches, branch_words, std::move(help)));
   keys.add(limit_of_branches<Range>(
       scene::file::whole("doublings", &BranchLimits::doublings, 0, most_doublings,
-                         "with all branches: how many period doublings in a row are followed")));
+                         "with all branches: number of successive period doublings to follow")));
   keys.add(limit_of_branches<Range>(scene::file::whole("most_branches", &BranchLimits::most_branches, 1,
                                                        most_branches,
-                                                       "with all branches: how many are traced at most")));
+                                                       "with all branches: maximum number of branches")));
   keys.add(limit_of_branches<Range>(
       scene::file::whole("searches", &BranchLimits::searches, 0, most_searches,
-                         "with all branches: at how many frequencies between the first and the last one "
-                         "branches that no other reaches are looked for")));
+                         "with all branches: number of frequencies at which to search for isolated branches, "
+                         "between the first and the last one")));
 }
 
 }  // namespace arcslip::studies

@@ -29,8 +29,8 @@ scene::file::KeysOf<BifurcationRange> keys_of_bifurcations() {
   keys.add(scene::file::range_over(&BifurcationRange::over, &BifurcationRange::from, &BifurcationRange::to));
   keys.add(scene::file::window(&BifurcationRange::frequency_from, &BifurcationRange::frequency_to));
   add_branch_keys(keys,
-                  "bifurcations of the branch that begins at the lower end of the window, or also of those "
-                  "that leave it, and so on, as of a frequency response");
+                  "bifurcations of the branch that begins at the lower end of the window, or also of all "
+                  "that leave it, as for a frequency response");
   return keys;
 }
 
@@ -47,8 +47,9 @@ scene::file::KeysOf<CurveRange> keys_of_curves() {
 
 scene::file::KeysOf<CurveRange> keys_of_peaks() {
   scene::file::KeysOf<CurveRange> all = keys_of_curves();
-  all.add(scene::file::word("resonance", &CurveRange::resonance, resonances,
-                            "the largest amplitude, or the excitation a quarter period ahead of the motion"));
+  all.add(
+      scene::file::word("resonance", &CurveRange::resonance, resonances,
+                        "what counts as a resonance: the largest amplitude, or a phase lag of 90 degrees"));
   return all;
 }
 
@@ -71,7 +72,7 @@ const StudyKind& folds() {
 const StudyKind& bifurcations() {
   static const StudyKind kind(
       {.name = "bifurcations",
-       .help = "period doublings, Neimark-Sacker points and breaks of symmetry over a parameter, with their "
+       .help = "period doublings, Neimark-Sacker points and symmetry breaking over a parameter, with their "
                "resonances"},
       keys_of_bifurcations(),
       computed_branches<observables::bifurcation_curves, BranchKind::bifurcations, BifurcationRange>);

@@ -26,8 +26,8 @@ scene::file::KeysOf<FrequencyRange> keys_of_frf() {
   add_method_key(keys);
   add_stability_keys(keys, stability_help);
   add_branch_keys(keys,
-                  "the branch that begins at the first frequency, or also those that leave it at breaks of "
-                  "symmetry, period doublings and branch points, those that leave these, and so on");
+                  "the branch that begins at the first frequency, or also all that leave it, directly or "
+                  "through others, at symmetry breaking, period doublings and branch points");
   keys.check(check_shooting);
   return keys;
 }

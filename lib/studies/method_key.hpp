@@ -16,8 +16,8 @@ inline constexpr std::array<scene::file::Word<observables::ResponseMethod>, 2> m
 template <class Range>
 void add_method_key(scene::file::KeysOf<Range>& keys) {
   keys.add(scene::file::word("method", &Range::method, method_words,
-                             "harmonic balance, or the exact motions in time by shooting, of scenes that are "
-                             "piecewise linear and have no degree of freedom without mass"));
+                             "harmonic balance, or shooting: exact motions in time, for piecewise linear "
+                             "scenes with a mass at every degree of freedom"));
 }
 
 /// The multipliers of shooting are those of its own map.

@@ -17,14 +17,13 @@ constexpr double largest_amplitude = 1e100;
 scene::file::KeysOf<ModeRange> keys_of_modes() {
   scene::file::KeysOf<ModeRange> keys;
   keys.add(scene::file::whole("mode", &ModeRange::mode, 1, most_modes,
-                              "the number of the mode, by the frequency of the structure at rest"));
-  keys.add(scene::file::window_of(&ModeRange::from, &ModeRange::to,
-                                  {"amplitude", "m", 0, largest_amplitude, true},
-                                  "amplitudes of the response: half the way between its extremes over the "
-                                  "period"));
+                              "number of the mode, by ascending frequency of the structure at rest"));
+  keys.add(scene::file::window_of(
+      &ModeRange::from, &ModeRange::to, {"amplitude", "m", 0, largest_amplitude, true},
+      "amplitudes of the response: half the difference of its extremes over the period"));
   keys.add(scene::file::whole("true_peaks", &ModeRange::true_peaks, 0, most_true_peaks,
-                              "at how many amplitudes, in equal ratios, the true peak of the frequency "
-                              "response is found next to the one that the mode predicts"));
+                              "number of amplitudes, logarithmically spaced, at which to compute the true "
+                              "peak of the frequency response, to compare with the predicted one"));
   return keys;
 }
 

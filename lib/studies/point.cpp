@@ -28,10 +28,9 @@ scene::file::KeysOf<PointSettings> keys_of_point() {
   keys.add(scene::file::one_frequency(&PointSettings::frequency, "the excitation frequency"));
   keys.add(
       scene::file::whole("steps", &PointSettings::steps, 1, most_steps, "number of instants of the history"));
-  keys.add(
-      scene::file::word("offsets", &PointSettings::offsets, offset_words,
-                        "of sliders that stick throughout the period: as their elements choose, or also the "
-                        "range of the amplitude over all places where they may rest"));
+  keys.add(scene::file::word("offsets", &PointSettings::offsets, offset_words,
+                             "where sliders that never slip rest: as their elements choose, or also the "
+                             "range of the amplitude over all possible positions"));
   add_stability_keys(keys, stability_of_points_help);
   return keys;
 }

@@ -42,8 +42,9 @@ KeyGroup<StabilityRequest> stability_key(const std::string& help) {
 }  // namespace
 
 std::vector<KeyGroup<StabilityRequest>> stability_keys(const std::string& help) {
-  auto kept = scene::file::whole("multipliers", &StabilityRequest::multipliers, 0, most_multipliers,
-                                 "how many of the multipliers the results have, by falling modulus; 0: all");
+  auto kept =
+      scene::file::whole("multipliers", &StabilityRequest::multipliers, 0, most_multipliers,
+                         "number of multipliers in the results, those of the largest modulus; 0: all");
   kept.write = [write = kept.write](const StabilityRequest& request, const scene::Scene& scene,
                                     Node::Object& to_file) {
     if (request.wanted) write(request, scene, to_file);

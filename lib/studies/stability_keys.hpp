@@ -10,8 +10,9 @@
 namespace arcslip::studies {
 
 inline constexpr const char* stability_help =
-    "also the Floquet multipliers of each response, and where it loses its stability";
-inline constexpr const char* stability_of_points_help = "also the Floquet multipliers of each response";
+    "whether to compute the Floquet multipliers of each response and locate the loss of stability";
+inline constexpr const char* stability_of_points_help =
+    "whether to compute the Floquet multipliers of each response";
 
 /// "stability" and "multipliers".
 std::vector<scene::file::KeyGroup<observables::StabilityRequest>> stability_keys(const std::string& help);

@@ -39,7 +39,7 @@ std::vector<scene::file::Word<SweepDirection>> direction_words() {
 KeyGroup<SweepSettings> spacing() {
   using namespace scene::file;
   return {{{"spacing", scene::KeyType::frequency, "frequency", "above 0", "", false,
-            "largest difference between two frequencies, which takes the place of \"points\""}},
+            "largest difference between two frequencies, instead of \"points\""}},
           [](const Reading& reading, SweepSettings& s) {
             const Location place = reading.keys.find("spacing");
             if (place.node == nullptr) return;
@@ -81,11 +81,10 @@ scene::file::KeysOf<SweepSettings> keys_of_sweep() {
            "from the first frequency to the last one, from the last to the first, or one after the other"));
   keys.add(whole("periods", &SweepSettings::periods, 1, most_periods,
                  "maximum number of excitation periods at each frequency"));
-  keys.add(whole("steps", &SweepSettings::steps, 1, most_steps,
-                 "steps per period, where Newmark's method is taken"));
+  keys.add(whole("steps", &SweepSettings::steps, 1, most_steps, "steps per period of Newmark's method"));
   keys.add(number(&SweepSettings::tolerance,
                   {.name = "tolerance", .unit = "-", .lower = 0, .upper = 1, .lower_open = true},
-                  "of a periodic motion: relative change of its state over its period"));
+                  "a motion is periodic if the relative change of its state over its period is below this"));
   keys.check(check_number);
   return keys;
 }

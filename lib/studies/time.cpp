@@ -63,11 +63,10 @@ scene::file::KeysOf<TimeSettings> keys_of_time() {
   keys.add(number(
       &TimeSettings::start_amplitude,
       {.name = "start", .unit = "m", .lower = 0, .upper = std::numeric_limits<double>::infinity()},
-      "to start from the response of harmonic balance with the amplitude nearest to it; 0: from rest"));
-  keys.add(
-      number(&TimeSettings::perturbation, {.name = "perturbation", .unit = "-", .lower = 0, .upper = 1},
-             "of a transient with a \"start\": its disturbance there, relative to the size of the state, "
-             "along the largest multiplier"));
+      "amplitude: start at the response of harmonic balance whose amplitude is nearest to it; 0: from rest"));
+  keys.add(number(&TimeSettings::perturbation, {.name = "perturbation", .unit = "-", .lower = 0, .upper = 1},
+                  "with a \"start\", of a transient: size of the initial disturbance, relative to the state, "
+                  "in the direction of the largest multiplier"));
   keys.check([](const Reading& reading, TimeSettings& time) {
     check_history(reading, time);
     check_start(reading, time);

@@ -32,14 +32,13 @@ inline constexpr Reason other_peak{
     "so that it may not be the optimum; of a curve: a response has a peak higher than the tracked ones"};
 inline constexpr Reason end_of_window{
     "end_of_window",
-    "the highest value lies at an end of the frequency window, where it is no resonance peak: the message "
-    "names "
-    "where resonances lie, and a window in which the design found has its peak inside"};
+    "the highest value lies at an end of the frequency window and is no resonance peak: the message says "
+    "where resonances lie, and gives a window that contains the peak of the design found"};
 inline constexpr Reason scatter_limit{
     "scatter_limit",
     "the worst case of the uncertain parameters still increased after the maximum number of searches"};
 inline constexpr Reason lower_beside{"lower_beside",
-                                     "next to each of several minima there was a lower design"};
+                                     "close to each of several minima there was a lower design"};
 inline constexpr Reason not_stationary{
     "not_stationary", "no algorithm reached a design that satisfies the first-order conditions of a minimum"};
 

@@ -85,7 +85,7 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
     const auto corner = to_corner(at);
     if (!corner) {
       end.stop.reason = StopReason::start_failed;
-      end.stop.message = "it is a corner of the response, but not an onset of slip";
+      end.stop.message = "it is a kink of the response, but not at slip onset";
       return std::move(result_);
     }
     at = *corner;

@@ -170,7 +170,7 @@ Stop CurveParts::stop(const SpecialCurveEnd& end, double begin, bool has_points,
     status = Status::complete;
     return {reasons::fold, end.over, end.over,
             (peaks_ ? "the peak meets a minimum of the amplitude over the frequency, and vanishes beyond "
-                    : "the fold meets another at a corner of the response, and vanishes beyond ") +
+                    : "the fold meets another at a grazing point, and vanishes beyond ") +
                 where};
   }
   if (!end.unbounded.empty()) {
@@ -195,8 +195,7 @@ Stop CurveParts::stop(const SpecialCurveEnd& end, double begin, bool has_points,
   if (has_points && end.goes_on) {
     status = Status::complete;
     return {reasons::corner, end.over, end.over,
-            "the " + what_ + " reaches a corner of the response at " + where +
-                ", from which another curve continues"};
+            "the " + what_ + " reaches a grazing point at " + where + ", from which another curve continues"};
   }
   status = status_of(end.stop.reason);
   Stop stop{reason_of(end.stop.reason), end.stop.value, end.stop.limit, end.stop.message};
@@ -210,7 +209,7 @@ Stop CurveParts::stop(const SpecialCurveEnd& end, double begin, bool has_points,
     stop.message = "no curve was started from the " + what_ + " at " + where + ": " + stop.message;
   } else if (end.stop.reason == StopReason::step_too_small) {
     stop.message = "the curve could not be continued beyond " + where + ": probably the " + what_ +
-                   " is at a corner of the response there, where a phase of " +
+                   " is at a kink of the response there, where a phase of " +
                    (is_bifurcation(kind_) ? "contact" : "friction") + " starts or ends";
   } else {
     stop.message += ", near " + where;

@@ -149,7 +149,7 @@ class Stretch {
 scene::file::KeysOf<OffsetOption> contact_3d_keys() {
   scene::file::KeysOf<OffsetOption> keys;
   keys.add(centred_offset<OffsetOption>(
-      "of a slider that sticks throughout the period: in the middle of where it can, without a mean force",
+      "where a slider that never slips rests: in the middle of its possible positions, without a mean force",
       "which a contact in a plane does not have: its slider, where it sticks throughout the period, holds no "
       "mean force; where one is to be held, put elements of type \"jenkins\" or \"contact_2d\" with "
       "\"offset\": "

@@ -137,7 +137,7 @@ file::KeysOf<IwanOptions> iwan_keys() {
       file::whole("sliders", &IwanOptions::sliders, 2, static_cast<int>(most_sliders),
                   "number of sliders by which studies of kind \"time\" replace a continuous distribution"));
   keys.add(centred_offset<IwanOptions>(
-      "of sliders that stick throughout the period, as some do in microslip: without a mean force",
+      "where sliders that never slip rest, as some do in microslip: without a mean force",
       "which this joint does not have: its sliders that stick throughout the period, as some do in "
       "microslip, "
       "hold no mean force; where one is to be held, put elements of type \"jenkins\" with \"offset\": "
