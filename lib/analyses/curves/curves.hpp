@@ -46,7 +46,7 @@ struct BifurcationRange {
 /// leaves the window, where it grows without bound ("unbounded"), where it meets a minimum of the amplitude
 /// ("fold"), or where it returns to its start ("closed"); if the curve beyond reaches a peak again, that is
 /// another branch. Events: "minimum" and "maximum" of the peak amplitude over the parameter, "fold", where
-/// the curve turns in it, and "corner", where the peak reaches or leaves a corner of the response, at which
+/// the curve turns in it, and "corner", where the peak reaches or leaves a grazing point, at which
 /// an element starts to slip. If a response cannot be continued through the window, a branch without points
 /// reports it.
 std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const CurveRange& range,
