@@ -299,6 +299,11 @@ Scene read(std::istream& in, const Catalogue& catalogue, const std::string& fold
   return scene;
 }
 
+Scene read(std::string_view text, const Catalogue& catalogue, const std::string& folder,
+           std::vector<NamedFile> known, const StopRequest& stop) {
+  return file::read_scene(file::read_tree(text, stop), catalogue, {{folder}, stop, std::move(known)});
+}
+
 Scene read_file(const std::string& path, const Catalogue& catalogue) {
   return read_file(path, catalogue, {});
 }

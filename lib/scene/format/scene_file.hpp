@@ -6,9 +6,15 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace arcslip::scene {
+
+/// Reads a text, whose named files are those of `known` where their paths agree, and else relative to
+/// `folder`. Throws as read_file().
+Scene read(std::string_view text, const Catalogue& catalogue, const std::string& folder,
+           std::vector<NamedFile> known, const StopRequest& stop);
 
 /// read_file() of a file or a pipe that may block. Throws Interrupted if `stop` is requested meanwhile.
 Scene read_file(const std::string& path, const Catalogue& catalogue, const StopRequest& stop);

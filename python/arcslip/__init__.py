@@ -1,0 +1,37 @@
+"""Continuation and bifurcation of nonlinear vibration.
+
+A scene is a structure with its forces and studies, as in a scene file; a study of it gives results, whose columns are
+NumPy arrays:
+
+>>> import arcslip
+>>> scene = arcslip.Scene("scene.json")                   # doctest: +SKIP
+>>> branch, = scene.frf(from_=10, to=30)                  # doctest: +SKIP
+>>> branch.amplitude.max(), branch.events["peak"]         # doctest: +SKIP
+
+Public are the names of ``__all__``, and their attributes that do not begin with an underscore.
+"""
+
+from ._core import __version__
+from .errors import ArcslipWarning, Fault, ParameterError, SceneError
+from .files import load
+from .parameters import Parameter, Parameters
+from .results import Result, Results
+from .scene import Scene, schema
+from .tables import Row, Table
+
+__all__ = [
+    "ArcslipWarning",
+    "Fault",
+    "Parameter",
+    "ParameterError",
+    "Parameters",
+    "Result",
+    "Results",
+    "Row",
+    "Scene",
+    "SceneError",
+    "Table",
+    "__version__",
+    "load",
+    "schema",
+]

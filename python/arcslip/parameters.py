@@ -1,0 +1,67 @@
+"""The parameters of a scene."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from . import _core
+
+
+class Parameter(float):
+    """The value of a parameter: a number that knows its unit, bounds and meaning.
+
+    Attributes
+    ----------
+    name : str
+    unit : str
+        "N", "N s/m"; "-" for a pure number.
+    lower, upper : float
+        Closed bounds, but where `lower_open`.
+    lower_open : bool
+        Whether the lower bound itself is not allowed.
+    help : str
+    """
+
+    name: str
+    unit: str
+    lower: float
+    upper: float
+    lower_open: bool
+    help: str
+
+    def __new__(cls, value: float, **about: Any) -> Parameter:
+        made = super().__new__(cls, value)
+        made.__dict__.update(about)
+        return made
+
+    def __getnewargs_ex__(self) -> tuple[tuple[float], dict[str, Any]]:
+        return (float(self),), dict(self.__dict__)
+
+    def __repr__(self) -> str:
+        number = float.__repr__(self)
+        return number if self.unit in ("", "-") else f"{number} {self.unit}"
+
+
+class Parameters(Mapping[str, Parameter]):
+    """The parameters of a scene by name, "part.field" or a tie."""
+
+    def __init__(self, core: _core.Scene) -> None:
+        self._all = {
+            each["name"]: Parameter(each.pop("value"), **each) for each in core.parameters()
+        }
+
+    def __getitem__(self, name: str) -> Parameter:
+        return self._all[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._all)
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def __repr__(self) -> str:
+        lines = [f"{name} = {value!r}" for name, value in self._all.items()]
+        return "\n".join(lines if len(lines) <= 30 else [*lines[:28], f"... {len(lines) - 28} more"])
+
+

@@ -1,0 +1,219 @@
+"""Results of studies."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import Any, overload
+
+from . import _core
+from .errors import ArcslipWarning
+from .tables import Table, as_array, packed
+
+
+class Result:
+    """A branch, a motion, an optimum or another result.
+
+    Columns of its main table, its tables and its further facts are items and attributes: ``branch["amplitude"]``,
+    ``branch.amplitude``, ``branch.events``, ``optimum.design``.
+
+    Attributes
+    ----------
+    noun : str
+        What it is: "branch", "motion".
+    study, kind : str
+        Name and kind of its study.
+    set : dict
+        The values of parameters for which it was computed, of a study with several.
+    status : str
+        "complete"; "stopped": a correct part of it; "failed": no result.
+    stop : dict
+        Why it ended: `reason`, `value`, `limit`, `message`.
+    doubt : str
+        Why a complete result is less accurate than it seems; "" if there is no doubt.
+    parent : Result or None
+        The result that it continues, or that it leaves.
+    tables : dict
+        Its tables by name. The first is the main one.
+    facts : dict
+        What it has besides.
+    """
+
+    def __init__(
+        self,
+        about: Mapping[str, Any],
+        tables: dict[str, Table],
+        labels: Mapping[str, str],
+    ) -> None:
+        self.noun: str = about["noun"]
+        self.study: str = about["study"]
+        self.kind: str = about["kind"]
+        self.set: dict[str, float] = about["set"]
+        self.status: str = about["status"]
+        self.stop: dict[str, Any] = about["stop"]
+        self.doubt: str = about["doubt"]
+        self.parent: Result | None = None
+        self.tables = tables
+        self.facts: dict[str, Any] = about["facts"]
+        self._set_units: dict[str, str] = about["set_units"]
+        self._labels = labels
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The units of columns of the main table, and of the parameters of `set`."""
+        return {**self._set_units, **self._main.units}
+
+    @property
+    def labels(self) -> dict[str, str]:
+        """The label of an axis for each column of the main table: "amplitude (m)", or as the scene has it."""
+        units = self.units
+        return {name: _label(name, units.get(name, ""), self._labels) for name in self._main.columns}
+
+    @property
+    def _main(self) -> Table:
+        return next(iter(self.tables.values()))
+
+    def __getitem__(self, name: str) -> Any:
+        if name in self.tables:
+            return self.tables[name]
+        if name in self._main.columns or name not in self.facts:
+            return self._main[name]
+        return self.facts[name]
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or "tables" not in self.__dict__:
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except KeyError as error:
+            raise AttributeError(str(error.args[0])) from None
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self.tables, *self.facts, *self._main.heads()]
+
+    def __len__(self) -> int:
+        """Return the number of rows of the main table."""
+        return len(self._main)
+
+    def __bool__(self) -> bool:
+        return True
+
+    def __repr__(self) -> str:
+        tables = ", ".join(f"{len(table)} {name}" for name, table in self.tables.items())
+        settings = ", ".join(f"{name} = {value:.6g}" for name, value in self.set.items())
+        words = [f"{self.noun} of {self.study!r}" if self.study else self.noun, settings, tables, self.status]
+        return f"<{', '.join(word for word in words if word)}>"
+
+
+class Results(Sequence[Result]):
+    """The results of one study or of several, in order.
+
+    Attributes
+    ----------
+    program : str
+        The program and its version.
+    scene_hash : str
+        Of the scene and of all that it names.
+    title, frequency_unit : str
+        Of the scene.
+    reduction : dict
+        How the matrices of the structure were reduced; empty where they were not.
+    """
+
+    def __init__(self, header: Mapping[str, Any], results: Sequence[Result], core: _core.Results | None = None) -> None:
+        self.program: str = header["program"]
+        self.scene_hash: str = header["scene_hash"]
+        self.title: str = header["title"]
+        self.frequency_unit: str = header["frequency_unit"]
+        self.reduction: dict[str, Any] = header["reduction"]
+        self._all = tuple(results)
+        self._core = core
+
+    @overload
+    def __getitem__(self, index: int) -> Result: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Result, ...]: ...
+    def __getitem__(self, index: int | slice) -> Result | tuple[Result, ...]:
+        return self._all[index]
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def of(self, study: str) -> tuple[Result, ...]:
+        """Return the results of the study with this name."""
+        return tuple(result for result in self._all if result.study == study)
+
+    def to_json(self) -> str:
+        """Return the text of the file that the command writes."""
+        if self._core is None:
+            raise ValueError("these results were loaded, or unpickled: their text is that of their file")
+        return self._core.json()
+
+    def __reduce__(self) -> Any:
+        header = {key: getattr(self, key) for key in HEADER}
+        return Results, (header, self._all)
+
+    def __repr__(self) -> str:
+        lines = [repr(result) for result in self._all[:20]]
+        if len(self._all) > 20:
+            lines.append(f"... {len(self._all) - 20} more")
+        return "\n".join([f"<results of {self.title!r}: {len(self._all)}>", *lines])
+
+
+HEADER = ("program", "scene_hash", "title", "frequency_unit", "reduction")
+
+
+def _label(name: str, unit: str, labels: Mapping[str, str]) -> str:
+    label = labels.get(name, name)
+    return f"{label} ({unit})" if unit not in ("", "-") and name not in labels else label
+
+
+def link(results: Sequence[Result], lists: Sequence[str], parents: Sequence[int]) -> None:
+    """Set the parents of results, which are counted backwards in their list."""
+    seen: dict[str, list[Result]] = {}
+    for result, list_, parent in zip(results, lists, parents, strict=True):
+        own = seen.setdefault(list_, [])
+        if parent > 0:
+            result.parent = own[-parent]
+        own.append(result)
+
+
+def _table(core: _core.Results, i: int, t: int, schema: Mapping[str, Any], count: int) -> Table:
+    columns = schema["columns"]
+    names = [".".join(column["path"]) for column in columns]
+    units = {name: column["unit"] for name, column in zip(names, columns, strict=True) if column["unit"]}
+
+    def load(c: int) -> Any:
+        values = core.column(i, t, c)
+        return as_array([] if values is None else values, columns[c]["type"])
+
+    return Table(names, count, load, units)
+
+
+def from_core(core: _core.Results, labels: Mapping[str, str]) -> Results:
+    """Return the results of a computation."""
+    schemas = core.schemas()
+    results, lists, parents = [], [], []
+    for i in range(len(core)):
+        about = core.facts(i)
+        schema = schemas[about["schema"]]
+        about["noun"] = schema["noun"]
+        about["facts"] = packed(about["facts"])
+        tables = {
+            table["key"]: _table(core, i, t, table, count)
+            for t, (table, count) in enumerate(zip(schema["tables"], core.counts(i), strict=True))
+        }
+        results.append(Result(about, tables, labels))
+        lists.append(schema["list"])
+        parents.append(about["parent"])
+    link(results, lists, parents)
+    return Results(core.header(), results, core)
+
+
+def warn(core: _core.Results, stacklevel: int) -> None:
+    """Warn of results that ended early and of those in doubt, in the words of the command."""
+    for remarks in core.remarks():
+        for sentence in remarks[:5]:
+            warnings.warn(sentence, ArcslipWarning, stacklevel=stacklevel + 1)
+        if len(remarks) > 5:
+            warnings.warn(f"and {len(remarks) - 5} more such results", ArcslipWarning, stacklevel=stacklevel + 1)

@@ -1,0 +1,211 @@
+"""Scenes."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from . import _core
+from .arrays import as_json
+from .parameters import Parameters
+from .results import Results
+from .studies import Progress, add_methods, run
+
+
+class Study(NamedTuple):
+    """A study of a scene: its name and its kind."""
+
+    name: str
+    kind: str
+
+
+class Scene:
+    """A structure with its elements, forces and studies. Scenes are values: they do not change, and are equal by content.
+
+    Each kind of study is a method: `frf`, `trace`, `peaks` and so on.
+
+    Parameters
+    ----------
+    source : path, str or dict
+        The path of a scene file; its text, which begins with "{"; or what it holds as a dict. In a dict, NumPy arrays and
+        sparse matrices of SciPy stand in place of the files of `matrices` and of the `shape` of a force, and a dict from name
+        to row, counted from 0, in place of the file of `names`. Other arrays are lists.
+    folder : path, optional
+        What paths in a text or a dict are relative to; by default the current directory.
+
+    Raises
+    ------
+    SceneError
+        With all faults of the scene.
+    OSError
+        If the file cannot be read.
+    """
+
+    __slots__ = ("_core", "_hash", "_parameters")
+
+    def __init__(
+        self, source: str | os.PathLike[str] | Mapping[str, Any], *, folder: str | os.PathLike[str] = ""
+    ) -> None:
+        if isinstance(source, Mapping):
+            text, files = as_json(source)
+            self._set(_read(text, folder, files))
+        elif isinstance(source, str) and source.lstrip().startswith("{"):
+            self._set(_read(source, folder, {}))
+        elif isinstance(source, (str, os.PathLike)):
+            self._set(_core.Scene.read_file(str(Path(source))))
+        else:
+            raise TypeError(f"found a scene of type {type(source).__name__}, must be a path, a text or a dict")
+
+    def _set(self, core: _core.Scene) -> None:
+        object.__setattr__(self, "_core", core)
+        object.__setattr__(self, "_hash", None)
+        object.__setattr__(self, "_parameters", None)
+
+    @classmethod
+    def _of(cls, core: _core.Scene) -> Scene:
+        scene = cls.__new__(cls)
+        scene._set(core)
+        return scene
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a scene does not change: {name!r} cannot be set; use replace()")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a scene does not change: {name!r} cannot be deleted")
+
+    @property
+    def title(self) -> str:
+        """Its title."""
+        return self._core.title
+
+    @property
+    def frequency_unit(self) -> str:
+        """The unit of all its frequencies, "Hz" or "rad/s"."""
+        return self._core.frequency_unit
+
+    @property
+    def dofs(self) -> tuple[str, ...]:
+        """The names of its degrees of freedom."""
+        return tuple(self._core.dofs)
+
+    @property
+    def studies(self) -> tuple[Study, ...]:
+        """Its studies."""
+        return tuple(Study(*study) for study in self._core.studies())
+
+    @property
+    def parameters(self) -> Parameters:
+        """Its parameters, a mapping from name to value, which has a unit, bounds and a help."""
+        if self._parameters is None:
+            object.__setattr__(self, "_parameters", Parameters(self._core))
+        return self._parameters  # type: ignore[return-value]
+
+    def replace(
+        self,
+        values: Mapping[str, float] | None = None,
+        /,
+        *,
+        harmonics: int | None = None,
+        accuracy: float | None = None,
+    ) -> Scene:
+        """Return the scene with other values of parameters, or other harmonics.
+
+        Parameters
+        ----------
+        values : mapping, optional
+            Values by the names of parameters.
+        harmonics : int, optional
+            The highest harmonic; with an accuracy the highest that may be chosen.
+        accuracy : float, optional
+            Of amplitudes, relative to the largest one, by which the harmonics are chosen.
+
+        Raises
+        ------
+        ParameterError
+            For an unknown parameter, or a value outside its bounds.
+        """
+        pairs = [(name, float(value)) for name, value in (values or {}).items()]
+        return Scene._of(self._core.replace(pairs, harmonics, accuracy))
+
+    def run(
+        self,
+        *names: str,
+        coefficients: bool = False,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> Results:
+        """Run the studies of the scene with these names, by default all.
+
+        Parameters
+        ----------
+        *names : str
+        coefficients : bool
+            Whether results have the Fourier coefficients of the response.
+        threads : int, optional
+            Threads to use; by default as many as there are processors.
+        progress : callable, optional
+            Called with the progress some ten times a second; ends it by returning False.
+
+        Returns
+        -------
+        Results
+        """
+        own = [study.name for study in self.studies]
+        for name in names:
+            if name not in own:
+                raise ValueError(f"found the study {name!r}, must be one of {own}")
+        which = [own.index(name) for name in names] if names else range(len(own))
+        return run(self, self._core, which, coefficients, threads, progress)
+
+    def to_json(self) -> str:
+        """Return the text of a scene file, with every default."""
+        return self._core.write()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what a scene file holds, with every default."""
+        found: dict[str, Any] = json.loads(self._core.write())
+        return found
+
+    def _content(self) -> str:
+        if self._hash is None:
+            object.__setattr__(self, "_hash", self._core.hash())
+        return self._hash  # type: ignore[return-value]
+
+    def __eq__(self, other: object) -> bool:
+        return self._content() == other._content() if isinstance(other, Scene) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._content())
+
+    def __reduce__(self) -> Any:
+        return _restored, (self._core.write(), self._core.folder, self._core.files())
+
+    def __repr__(self) -> str:
+        studies = ", ".join(f"{name} ({kind})" if name != kind else name for name, kind in self.studies[:8])
+        more = f" and {len(self.studies) - 8} more" if len(self.studies) > 8 else ""
+        count = len(self._core.dofs)
+        return (
+            f"<scene {self.title!r}: {count} degree{'s' * (count != 1)} of freedom,"
+            f" {len(self.parameters)} parameters; studies: {studies or 'none'}{more}>"
+        )
+
+
+def _restored(text: str, folder: str, files: dict[str, bytes]) -> Scene:
+    return Scene._of(_read(text, folder, files))
+
+
+def _read(text: str, folder: str | os.PathLike[str], files: dict[str, bytes]) -> _core.Scene:
+    text.encode()  # lone surrogates raise UnicodeEncodeError
+    return _core.Scene.read(text, os.fspath(folder), files)
+
+
+def schema() -> dict[str, Any]:
+    """Return the format of scenes as a JSON Schema."""
+    found: dict[str, Any] = json.loads(_core.schema())
+    return found
+
+
+add_methods(Scene)

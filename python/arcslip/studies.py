@@ -1,0 +1,179 @@
+"""The studies of a scene as methods, made from the keys of each kind of study."""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+import json
+import keyword
+import os
+import textwrap
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from . import _core
+from .arrays import as_json
+from .results import Results, from_core, warn
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+#: A callable that is given the progress of a computation, as a dict, and that ends it by returning False.
+Progress = Callable[[dict[str, Any]], object]
+
+TYPES = {
+    "number": "float",
+    "whole": "int",
+    "text": "str",
+    "word": "str",
+    "frequency": "float",
+    "window": "Sequence[float]",
+    "parameter": "str",
+    "value": "float",
+    "parameters": "Sequence[str]",
+    "followed": "str",
+}
+
+COMMON = {
+    "study": ("str", "The study of the scene that gives the keys that are left out; by default the first of the kind."),
+    "for_each": ("Mapping[str, Sequence[float]]", "Values of parameters, for whose combinations the study is repeated."),
+    "threads": ("int", "Threads to use; by default as many as there are processors."),
+    "progress": ("Callable[[dict], object]", "Called with the progress some ten times a second; ends it by returning False."),
+}
+COEFFICIENTS = ("bool", "Whether results have the Fourier coefficients of the response. Default: False.")
+
+
+def run(
+    scene: Scene, core: _core.Scene, which: Sequence[int], coefficients: bool, threads: int | None, progress: Any
+) -> Results:
+    """Run studies of a scene. What ends them early is raised with the results so far as its attribute `results`."""
+    if threads is not None and threads < 1:
+        raise ValueError(f"found threads={threads}, must be at least 1")
+    if progress is not None and not callable(progress):
+        raise TypeError(f"found progress={progress!r}, must be callable")
+    found, error = _core.run(core, list(which), coefficients, threads or os.cpu_count() or 1, progress)
+    results = from_core(found, core.labels)
+    if error is not None:
+        error.results = results
+        raise error
+    warn(found, 4)
+    return results
+
+
+def argument(key: str) -> str:
+    """Return the name of the argument for a key: "from_" for "from"."""
+    return key + "_" if keyword.iskeyword(key) else key
+
+
+def _arguments(kind: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
+    return {argument(key["name"]): key for key in kind["keys"]}
+
+
+def _default(key: Mapping[str, Any]) -> Any:
+    return json.loads(key["default"]) if key["default"] else None
+
+
+def _unit(key: Mapping[str, Any]) -> str:
+    of = {"": "", "frequency": "in the unit of the scene's frequencies", "parameter": "in the unit of the parameter"}
+    return of.get(key["unit"], f"in {key['unit']}") if key["unit"] != "-" else ""
+
+
+def _described(name: str, type_: str, text: str) -> str:
+    return f"{name} : {type_}, optional\n" + textwrap.indent(textwrap.fill(text, 100), "    ")
+
+
+def _sentence(text: str) -> str:
+    return text[:1].upper() + text[1:] + "."
+
+
+def _docstring(kind: Mapping[str, Any]) -> str:
+    entries = []
+    for name, key in _arguments(kind).items():
+        parts = [key["help"], key["allowed"], _unit(key)]
+        text = _sentence("; ".join(part for part in parts if part))
+        if key["default"]:
+            text += f" Default: {_default(key)!r}."
+        entries.append(_described(name, TYPES.get(key["type"], "object"), text))
+    common = dict(COMMON, coefficients=COEFFICIENTS) if kind["takes_coefficients"] else COMMON
+    entries += [_described(name, type_, text) for name, (type_, text) in common.items()]
+    required = [argument(key["name"]) for key in kind["keys"] if key["required"]]
+    needed = f" A scene without one needs {', '.join(required)}." if required else ""
+    return (
+        f"{_sentence(kind['help'])}\n\nWhat is not given is taken from the first study of the kind {kind['name']!r} that"
+        f" the scene has, else it is the default.{needed}\n\nParameters\n----------\n"
+        + "\n".join(entries)
+        + "\n\nReturns\n-------\nResults\n"
+    )
+
+
+def _signature(kind: Mapping[str, Any]) -> inspect.Signature:
+    def only(name: str, default: Any, annotation: str) -> inspect.Parameter:
+        return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
+
+    own = [
+        only(name, _default(key), TYPES.get(key["type"], "Any") + ("" if key["default"] else " | None"))
+        for name, key in _arguments(kind).items()
+    ]
+    common = [only(name, None, f"{type_} | None") for name, (type_, _) in COMMON.items()]
+    if kind["takes_coefficients"]:
+        common.append(only("coefficients", False, "bool"))
+    itself = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
+    return inspect.Signature([itself, *own, *common], return_annotation="Results")
+
+
+def _template(core: _core.Scene, kind: str, study: str | None, over: object) -> int | None:
+    """Return the index of the study whose keys a call changes: that of a name, one over the same parameter, or the first."""
+    own = [i for i, (_, of) in enumerate(core.studies()) if of == kind]
+    if study is not None:
+        for i in own:
+            if core.studies()[i][0] == study:
+                return i
+        raise ValueError(f"found study={study!r}, must be one of {[core.studies()[i][0] for i in own]}")
+    if over is not None and own:
+        studies = json.loads(core.write())["studies"]
+        return next((i for i in own if studies[i].get("over") == over), own[0])
+    return own[0] if own else None
+
+
+def method(kind: Mapping[str, Any]) -> Callable[..., Results]:
+    """Return the method of scenes for a kind of study."""
+    arguments = _arguments(kind)
+
+    def study_of_kind(
+        self: Scene,
+        /,
+        *,
+        study: str | None = None,
+        for_each: Any = None,
+        threads: int | None = None,
+        progress: Progress | None = None,
+        coefficients: bool = False,
+        **options: Any,
+    ) -> Results:
+        for name in options:
+            if name not in arguments:
+                near = difflib.get_close_matches(name, arguments, 1)
+                hint = f"; the nearest is {near[0]!r}" if near else ""
+                raise TypeError(f"{kind['verb']}() has no argument {name!r}{hint}")
+        if coefficients and not kind["takes_coefficients"]:
+            raise TypeError(f"{kind['verb']}() has no argument 'coefficients'")
+        keys = {arguments[name]["name"]: value for name, value in options.items()}
+        if for_each is not None:
+            keys["for_each"] = for_each
+        core = self._core
+        index = _template(core, kind["name"], study, keys.get("over"))
+        text, _ = as_json(keys)
+        core, index = core.with_study(kind["name"], index, text)
+        return run(self, core, [index], coefficients, threads, progress)
+
+    study_of_kind.__name__ = kind["verb"]
+    study_of_kind.__qualname__ = f"Scene.{kind['verb']}"
+    study_of_kind.__doc__ = _docstring(kind)
+    study_of_kind.__signature__ = _signature(kind)  # type: ignore[attr-defined]
+    return study_of_kind
+
+
+def add_methods(cls: type) -> None:
+    """Add a method for each kind of study."""
+    for kind in _core.kinds():
+        setattr(cls, kind["verb"], method(kind))

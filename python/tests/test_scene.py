@@ -1,0 +1,219 @@
+"""Scenes: where they come from, and that they are values."""
+
+from __future__ import annotations
+
+import copy
+import json
+import math
+import os
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import scipy.sparse
+
+import arcslip
+from arcslip.arrays import matrix_market
+
+
+def test_path_text_and_dict_give_the_same_scene(tmp_path: Path, oscillator: dict[str, Any]) -> None:
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps(oscillator))
+    scenes = [
+        arcslip.Scene(path),
+        arcslip.Scene(str(path)),
+        arcslip.Scene(json.dumps(oscillator)),
+        arcslip.Scene(oscillator),
+        arcslip.Scene(arcslip.Scene(oscillator).to_json()),
+        arcslip.Scene(arcslip.Scene(oscillator).to_dict()),
+    ]
+    assert len(set(scenes)) == 1
+    assert scenes[0] != scenes[0].replace({"c.value": 3})
+    assert scenes[0] != "scene"
+
+
+def test_scene_is_equal_after_replacing_a_value_and_setting_it_back(scene: arcslip.Scene) -> None:
+    assert scene.replace({"c.value": 3}).replace({"c.value": 2}) == scene
+
+
+def test_scene_does_not_change(scene: arcslip.Scene) -> None:
+    with pytest.raises(AttributeError, match="replace"):
+        scene.title = "other"  # type: ignore[misc]
+    with pytest.raises(AttributeError):
+        del scene._core
+    assert copy.deepcopy(scene) == scene
+
+
+def test_parameters_have_value_unit_bounds_and_help(scene: arcslip.Scene) -> None:
+    load = scene.parameters["damper.normal_load"]
+    assert (load, load.unit, load.lower, load.upper) == (4.0, "N", 0.0, math.inf)
+    assert "slip limit" in load.help
+    assert repr(load) == "4.0 N"
+    assert "force.cosine" in scene.parameters
+    assert pickle.loads(pickle.dumps(load)).unit == "N"
+    assert scene.replace({"damper.normal_load": 5}).parameters["damper.normal_load"] == 5
+    with pytest.raises(KeyError):
+        scene.parameters["damper.load"]
+
+
+def test_unknown_parameter_names_the_nearest(scene: arcslip.Scene) -> None:
+    with pytest.raises(arcslip.ParameterError, match="damper.normal_load"):
+        scene.replace({"damper.normal_lod": 5})
+    with pytest.raises(arcslip.ParameterError, match="at least 0"):
+        scene.replace({"damper.normal_load": -5})
+
+
+@pytest.mark.parametrize("wrong", ["much", None, [1, 2], 1j])
+def test_value_of_a_wrong_type_is_refused(scene: arcslip.Scene, wrong: object) -> None:
+    with pytest.raises((TypeError, ValueError)):
+        scene.replace({"damper.normal_load": wrong})  # type: ignore[dict-item]
+
+
+def test_all_faults_of_a_scene_are_reported(oscillator: dict[str, Any]) -> None:
+    oscillator["elements"][0]["normal_lod"] = 1
+    oscillator["structure"]["masses"][0]["value"] = -1
+    with pytest.raises(arcslip.SceneError) as caught:
+        arcslip.Scene(oscillator)
+    faults = {fault.pointer: fault.message for fault in caught.value.faults}
+    assert set(faults) == {"/elements/0/normal_lod", "/structure/masses/0/value"}
+    assert "normal_load" in faults["/elements/0/normal_lod"]
+    assert str(caught.value).count("\n") == 1
+    assert pickle.loads(pickle.dumps(caught.value)).faults == caught.value.faults
+
+
+@pytest.mark.parametrize(
+    "text", ["{", "{}", '{"format": "arcslip-scene-1"}', "{\0}", '{"title": NaN}', "{" * 1000, '{"a": "\ud800"}']
+)
+def test_text_that_is_no_scene_is_refused(text: str) -> None:
+    with pytest.raises((arcslip.SceneError, UnicodeEncodeError)):
+        arcslip.Scene(text)
+
+
+@pytest.mark.parametrize("wrong", [None, 1, b"{}", [1], object()])
+def test_source_of_a_wrong_type_is_refused(wrong: object) -> None:
+    with pytest.raises(TypeError, match="must be a path, a text or a dict"):
+        arcslip.Scene(wrong)  # type: ignore[arg-type]
+
+
+def test_missing_file_is_an_error_of_the_system(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="No such file"):
+        arcslip.Scene(tmp_path / "none.json")
+    with pytest.raises(OSError, match="directory"):
+        arcslip.Scene(tmp_path)
+    with pytest.raises((OSError, ValueError)):
+        arcslip.Scene("a\0b")
+
+
+def test_repr_fits_a_screen(scene: arcslip.Scene, examples: Path) -> None:
+    assert "oscillator" in repr(scene)
+    for path in [examples / "contact_patch/scene.json", examples / "al_sayed_2011/scene.json"]:
+        assert len(repr(arcslip.Scene(path))) < 500
+        assert repr(arcslip.Scene(path).parameters).count("\n") < 40
+
+
+def test_pickled_scene_carries_its_files(examples: Path, tmp_path: Path) -> None:
+    for name in ["contact_patch", "blade"]:
+        folder = tmp_path / name
+        folder.mkdir()
+        for file in (examples / name).iterdir():
+            if file.is_file():
+                (folder / file.name).write_bytes(file.read_bytes())
+        scene = arcslip.Scene(folder / "scene.json")
+        data = pickle.dumps(scene)
+        for file in folder.iterdir():
+            file.unlink()
+        assert pickle.loads(data) == scene == arcslip.Scene(examples / name / "scene.json")
+
+
+def test_scene_is_the_same_in_another_process(scene: arcslip.Scene) -> None:
+    code = "import pickle, sys; print(pickle.load(sys.stdin.buffer)._content())"
+    found = subprocess.run([sys.executable, "-c", code], input=pickle.dumps(scene), capture_output=True, check=True)
+    assert found.stdout.decode().strip() == scene._content()
+
+
+def chain(mass: Any, stiffness: Any) -> dict[str, Any]:
+    return {
+        "format": "arcslip-scene-1",
+        "structure": {
+            "matrices": {"mass": mass, "stiffness": stiffness},
+            "names": {"first": 0, "tip": 2},
+            "damping": [{"name": "damping", "type": "rayleigh", "alpha": 0.1, "beta": 1e-5}],
+        },
+        "elements": [
+            {
+                "name": "damper",
+                "type": "jenkins",
+                "at": "first",
+                "stiffness": 1e4,
+                "friction_coefficient": 0.5,
+                "normal_load": 4.0,
+            }
+        ],
+        "excitation": [{"name": "force", "shape": np.array([0.0, 0.0, 1.0]), "cosine": 1.0}],
+        "response": {"at": "tip"},
+        "harmonics": {"order": 5},
+        "studies": [{"name": "response", "kind": "frf", "from": 5.0, "to": 15.0}],
+    }
+
+
+MASS = np.eye(3) * 1.5
+STIFFNESS = np.array([[2e4, -1e4, 0.0], [-1e4, 2e4, -1e4], [0.0, -1e4, 1e4]]) * (1 + 1 / 3)
+
+
+def test_arrays_stand_in_place_of_files(tmp_path: Path) -> None:
+    big_endian = np.asfortranarray(STIFFNESS).astype(">f8")
+    strided = np.repeat(np.repeat(STIFFNESS, 2, 0), 2, 1)[::2, ::2]
+    read_only = STIFFNESS.copy()
+    read_only.flags.writeable = False
+    scenes = [
+        arcslip.Scene(chain(mass, stiffness))
+        for mass in [MASS, scipy.sparse.csr_matrix(MASS), scipy.sparse.dia_array(MASS)]
+        for stiffness in [STIFFNESS, scipy.sparse.csc_array(STIFFNESS), big_endian, strided, read_only]
+    ]
+    assert len(set(scenes)) == 1
+    assert len({scene.frf()[0].amplitude.tobytes() for scene in scenes[:5]}) == 1
+    of_files = chain("M.mtx", "K.mtx")
+    of_files["structure"]["names"] = "names.csv"
+    of_files["excitation"][0]["shape"] = "shape.mtx"
+    (tmp_path / "M.mtx").write_bytes(matrix_market(MASS))
+    (tmp_path / "K.mtx").write_bytes(matrix_market(STIFFNESS))
+    (tmp_path / "shape.mtx").write_bytes(matrix_market(np.array([0.0, 0.0, 1.0])))
+    (tmp_path / "names.csv").write_text("name,row\nfirst,1\ntip,3\n")
+    assert arcslip.Scene(of_files, folder=tmp_path) == scenes[0]
+    assert pickle.loads(pickle.dumps(scenes[0])) == scenes[0]
+    assert scenes[0].parameters["damper.normal_load"] == 4
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        np.full((3, 3), np.nan),
+        np.ones((2, 3)),
+        np.ones((2, 2)),
+        np.ones((3, 3, 3)),
+        np.eye(3) * 1j,
+        np.array([["a"]]),
+        np.array([[None]]),
+        np.zeros((0, 0)),
+    ],
+)
+def test_wrong_matrices_are_refused(wrong: Any) -> None:
+    with pytest.raises((arcslip.SceneError, TypeError)):
+        arcslip.Scene(chain(MASS, wrong))
+
+
+def test_schema_lists_the_kinds_of_studies() -> None:
+    text = json.dumps(arcslip.schema())
+    assert all(f'"{kind}"' in text for kind in ["frf", "trace", "optimum"])
+
+
+def test_scene_can_be_read_in_a_forked_process(scene: arcslip.Scene) -> None:
+    scene.frf()
+    child = os.fork()
+    if child == 0:
+        os._exit(0 if len(scene.frf()[0]) > 10 else 1)
+    assert os.waitpid(child, 0)[1] == 0
