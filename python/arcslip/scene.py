@@ -10,9 +10,10 @@ from typing import Any, NamedTuple
 
 from . import _core
 from .arrays import as_json
+from .methods import StudyMethods
 from .parameters import Parameters
 from .results import Results
-from .studies import Progress, add_methods, run
+from .studies import Progress, run
 
 
 class Study(NamedTuple):
@@ -22,7 +23,7 @@ class Study(NamedTuple):
     kind: str
 
 
-class Scene:
+class Scene(StudyMethods):
     """A structure with its elements, forces and studies. Scenes are values: they do not change, and are equal by content.
 
     Each kind of study is a method: `frf`, `trace`, `peaks` and so on.
@@ -44,7 +45,11 @@ class Scene:
         If the file cannot be read.
     """
 
-    __slots__ = ("_core", "_hash", "_parameters")
+    __slots__ = ("_data", "_hash", "_parameters")
+
+    _data: _core.Scene
+    _hash: str | None
+    _parameters: Parameters | None
 
     def __init__(
         self, source: str | os.PathLike[str] | Mapping[str, Any], *, folder: str | os.PathLike[str] = ""
@@ -60,7 +65,7 @@ class Scene:
             raise TypeError(f"found a scene of type {type(source).__name__}, must be a path, a text or a dict")
 
     def _set(self, core: _core.Scene) -> None:
-        object.__setattr__(self, "_core", core)
+        object.__setattr__(self, "_data", core)
         object.__setattr__(self, "_hash", None)
         object.__setattr__(self, "_parameters", None)
 
@@ -79,29 +84,29 @@ class Scene:
     @property
     def title(self) -> str:
         """Its title."""
-        return self._core.title
+        return self._data.title
 
     @property
     def frequency_unit(self) -> str:
         """The unit of all its frequencies, "Hz" or "rad/s"."""
-        return self._core.frequency_unit
+        return self._data.frequency_unit
 
     @property
     def dofs(self) -> tuple[str, ...]:
         """The names of its degrees of freedom."""
-        return tuple(self._core.dofs)
+        return tuple(self._data.dofs)
 
     @property
     def studies(self) -> tuple[Study, ...]:
         """Its studies."""
-        return tuple(Study(*study) for study in self._core.studies())
+        return tuple(Study(*study) for study in self._data.studies())
 
     @property
     def parameters(self) -> Parameters:
         """Its parameters, a mapping from name to value, which has a unit, bounds and a help."""
-        if self._parameters is None:
-            object.__setattr__(self, "_parameters", Parameters(self._core))
-        return self._parameters  # type: ignore[return-value]
+        found = self._parameters or Parameters(self._data)
+        object.__setattr__(self, "_parameters", found)
+        return found
 
     def replace(
         self,
@@ -128,7 +133,7 @@ class Scene:
             For an unknown parameter, or a value outside its bounds.
         """
         pairs = [(name, float(value)) for name, value in (values or {}).items()]
-        return Scene._of(self._core.replace(pairs, harmonics, accuracy))
+        return Scene._of(self._data.replace(pairs, harmonics, accuracy))
 
     def run(
         self,
@@ -158,21 +163,21 @@ class Scene:
             if name not in own:
                 raise ValueError(f"found the study {name!r}, must be one of {own}")
         which = [own.index(name) for name in names] if names else range(len(own))
-        return run(self, self._core, which, coefficients, threads, progress)
+        return run(self, self._data, which, coefficients, threads, progress)
 
     def to_json(self) -> str:
         """Return the text of a scene file, with every default."""
-        return self._core.write()
+        return self._data.write()
 
     def to_dict(self) -> dict[str, Any]:
         """Return what a scene file holds, with every default."""
-        found: dict[str, Any] = json.loads(self._core.write())
+        found: dict[str, Any] = json.loads(self._data.write())
         return found
 
     def _content(self) -> str:
-        if self._hash is None:
-            object.__setattr__(self, "_hash", self._core.hash())
-        return self._hash  # type: ignore[return-value]
+        found = self._hash or self._data.hash()
+        object.__setattr__(self, "_hash", found)
+        return found
 
     def __eq__(self, other: object) -> bool:
         return self._content() == other._content() if isinstance(other, Scene) else NotImplemented
@@ -181,12 +186,12 @@ class Scene:
         return hash(self._content())
 
     def __reduce__(self) -> Any:
-        return _restored, (self._core.write(), self._core.folder, self._core.files())
+        return _restored, (self._data.write(), self._data.folder, self._data.files())
 
     def __repr__(self) -> str:
         studies = ", ".join(f"{name} ({kind})" if name != kind else name for name, kind in self.studies[:8])
         more = f" and {len(self.studies) - 8} more" if len(self.studies) > 8 else ""
-        count = len(self._core.dofs)
+        count = len(self._data.dofs)
         return (
             f"<scene {self.title!r}: {count} degree{'s' * (count != 1)} of freedom,"
             f" {len(self.parameters)} parameters; studies: {studies or 'none'}{more}>"
@@ -206,6 +211,3 @@ def schema() -> dict[str, Any]:
     """Return the format of scenes as a JSON Schema."""
     found: dict[str, Any] = json.loads(_core.schema())
     return found
-
-
-add_methods(Scene)

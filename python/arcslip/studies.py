@@ -36,9 +36,9 @@ TYPES = {
 
 COMMON = {
     "study": ("str", "The study of the scene that gives the keys that are left out; by default the first of the kind."),
-    "for_each": ("Mapping[str, Sequence[float]]", "Values of parameters, for whose combinations the study is repeated."),
+    "for_each": ("Mapping[str, Sequence[float] | NDArray[Any]]", "Values of parameters, for whose combinations the study is repeated."),
     "threads": ("int", "Threads to use; by default as many as there are processors."),
-    "progress": ("Callable[[dict], object]", "Called with the progress some ten times a second; ends it by returning False."),
+    "progress": ("Callable[[dict[str, Any]], object]", "Called with the progress some ten times a second; ends it by returning False."),
 }
 COEFFICIENTS = ("bool", "Whether results have the Fourier coefficients of the response. Default: False.")
 
@@ -54,7 +54,7 @@ def run(
     found, error = _core.run(core, list(which), coefficients, threads or os.cpu_count() or 1, progress)
     results = from_core(found, core.labels)
     if error is not None:
-        error.results = results
+        error.results = results  # type: ignore[attr-defined]
         raise error
     warn(found, 4)
     return results
@@ -160,7 +160,7 @@ def method(kind: Mapping[str, Any]) -> Callable[..., Results]:
         keys = {arguments[name]["name"]: value for name, value in options.items()}
         if for_each is not None:
             keys["for_each"] = for_each
-        core = self._core
+        core = self._data
         index = _template(core, kind["name"], study, keys.get("over"))
         text, _ = as_json(keys)
         core, index = core.with_study(kind["name"], index, text)
@@ -177,3 +177,28 @@ def add_methods(cls: type) -> None:
     """Add a method for each kind of study."""
     for kind in _core.kinds():
         setattr(cls, kind["verb"], method(kind))
+
+
+def stubs(cls: type) -> str:
+    """Return the text of a stub of a class with these methods."""
+    lines = [
+        "# Made from the keys of studies: python -P python/stubs > python/arcslip/methods.pyi",
+        "from collections.abc import Callable, Mapping, Sequence",
+        "from typing import Any",
+        "",
+        "from numpy.typing import NDArray",
+        "",
+        "from .results import Results",
+        "",
+        f"class {cls.__name__}:",
+        "    __slots__ = ()",
+    ]
+    for kind in _core.kinds():
+        lines.append(f"    def {kind['verb']}(")
+        lines.append("        self,")
+        lines.append("        /,")
+        lines.append("        *,")
+        for each in list(_signature(kind).parameters.values())[1:]:
+            lines.append(f"        {each.name}: {each.annotation} = {each.default!r},")
+        lines.append("    ) -> Results: ...")
+    return "\n".join(lines) + "\n"

@@ -3,7 +3,6 @@
 #include "bindings.hpp"
 #include "supervised.hpp"
 
-#include <arcslip/scene/files/manifest.hpp>
 #include <arcslip/scene/format/scene_file.hpp>
 #include <arcslip/scene/keys/json_tree.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -160,12 +159,8 @@ void bind_scene(nb::module_& core) {
       .def("files", files)
       .def("parameters", parameters)
       .def("replace", replace, nb::arg("values"), nb::arg("order").none(), nb::arg("accuracy").none())
-      .def("from_folder",
-           [](const Scene& s, const std::string& folder) { return scene::from_folder(s, folder); })
       .def("studies", studies)
       .def("with_study", with_study, nb::arg("kind"), nb::arg("index").none(), nb::arg("json"))
-      .def("doubts",
-           [](const Scene& s, const std::string& path) { return scene::manifest_doubts(s, path).changed; })
       .def_prop_ro("labels",
                    [](const Scene& scene) {
                      nb::dict all;

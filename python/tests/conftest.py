@@ -11,12 +11,10 @@ import pytest
 import arcslip
 from arcslip.command import PROGRAM
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
-
 
 @pytest.fixture(scope="session")
 def examples() -> Path:
-    return EXAMPLES
+    return Path(__file__).resolve().parents[2] / "examples"
 
 
 @pytest.fixture(scope="session")

@@ -44,7 +44,7 @@ def test_scene_does_not_change(scene: arcslip.Scene) -> None:
     with pytest.raises(AttributeError, match="replace"):
         scene.title = "other"  # type: ignore[misc]
     with pytest.raises(AttributeError):
-        del scene._core
+        del scene._data
     assert copy.deepcopy(scene) == scene
 
 
@@ -131,7 +131,7 @@ def test_pickled_scene_carries_its_files(examples: Path, tmp_path: Path) -> None
 
 def test_scene_is_the_same_in_another_process(scene: arcslip.Scene) -> None:
     code = "import pickle, sys; print(pickle.load(sys.stdin.buffer)._content())"
-    found = subprocess.run([sys.executable, "-c", code], input=pickle.dumps(scene), capture_output=True, check=True)
+    found = subprocess.run([sys.executable, "-P", "-c", code], input=pickle.dumps(scene), capture_output=True, check=True)
     assert found.stdout.decode().strip() == scene._content()
 
 

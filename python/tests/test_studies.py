@@ -17,7 +17,8 @@ import pytest
 
 import arcslip
 from arcslip import _core
-from arcslip.studies import COMMON, argument
+from arcslip.methods import StudyMethods
+from arcslip.studies import COMMON, argument, stubs
 
 
 def test_every_kind_of_study_is_a_method_with_its_keys() -> None:
@@ -32,6 +33,11 @@ def test_every_kind_of_study_is_a_method_with_its_keys() -> None:
         assert list(parameters)[1 : 1 + len(names)] == names
         assert not set(names) & {*COMMON, "coefficients"}
         assert all(f"\n{name} : " in method.__doc__ and name.isidentifier() for name in names)
+
+
+def test_stubs_of_the_methods_are_current() -> None:
+    path = Path(arcslip.__file__).with_name("methods.pyi")
+    assert path.read_text() == stubs(StudyMethods), "run python -P python/stubs > python/arcslip/methods.pyi"
 
 
 def test_study_of_the_scene_gives_what_a_call_leaves_out(scene: arcslip.Scene) -> None:
@@ -159,11 +165,12 @@ def test_callback_that_returns_false_stops(slow: Callable[..., arcslip.Results])
     assert results[-1].status in ("stopped", "complete")
 
 
-def test_doubt_is_a_warning_and_an_attribute(examples: Path) -> None:
-    scene = arcslip.Scene(examples / "duffing/scene.json")
-    with pytest.warns(arcslip.ArcslipWarning, match="unstable") as caught:
-        results = scene.frf(stability=True)
-    assert results[0].doubt and results[0].status == "complete"
+def test_doubt_is_a_warning_and_an_attribute(scene: arcslip.Scene) -> None:
+    scene = scene.replace(harmonics=3, accuracy=1e-8)
+    with pytest.warns(arcslip.ArcslipWarning, match="accuracy") as caught:
+        (branch,) = scene.frf()
+    assert branch.doubt and branch.status == "complete"
+    assert branch.accuracy["order"] == 3 and branch.accuracy["wanted"] == 1e-8
     assert caught[0].filename == __file__
 
 
