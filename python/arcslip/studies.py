@@ -56,7 +56,7 @@ def run(
     if error is not None:
         error.results = results  # type: ignore[attr-defined]
         raise error
-    warn(found, 4)
+    warn(found, 3)
     return results
 
 

@@ -1,0 +1,65 @@
+"""The package as it is installed."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import arcslip
+
+#: Libraries of the system that a manylinux wheel may need.
+OF_SYSTEM = {"libc", "libm", "libstdc++", "libgcc_s", "libpthread", "libdl", "librt", "ld-linux-x86-64", "linux-vdso"}
+
+
+def test_wheel_needs_only_what_it_carries(command: Path) -> None:
+    package = Path(arcslip.__file__).parent
+    assert not command.is_symlink()
+    for file in [next(package.glob("_core*.so")), command]:
+        text = subprocess.run(["ldd", file], capture_output=True, text=True, check=True).stdout
+        for line in text.splitlines():
+            name = re.split(r"[.]so|\s=>", Path(line.split()[0]).name)[0]
+            path = Path(line.split(" => ")[1].split()[0]).resolve() if " => " in line else None
+            assert name in OF_SYSTEM or (path and path.is_relative_to(package.parent)), line
+        assert "libklu" in text and "libcholmod" in text and "libnlopt" in text and "openblas" in text
+        assert "hdf5" not in text and "matio" not in text
+
+
+def test_command_is_installed_and_hands_on_its_exit_code(tmp_path: Path) -> None:
+    script = Path(sys.executable).with_name("arcslip")
+    version = subprocess.run([script, "--version"], capture_output=True, text=True, check=True).stdout
+    assert arcslip.__version__ in version
+    assert subprocess.run([script, "check", tmp_path / "none.json"], capture_output=True, check=False).returncode != 0
+
+
+def test_import_is_quick_and_needs_numpy_alone() -> None:
+    code = "import sys, arcslip; print(sorted({name.split('.')[0] for name in sys.modules}))"
+    found = subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, check=True).stdout
+    assert "'numpy'" in found
+    assert not any(f"'{name}'" in found for name in ["scipy", "matplotlib", "pandas", "xarray", "tqdm"])
+
+
+def test_python_exits_without_leaks(examples: Path) -> None:
+    scene = examples / "duffing/scene.json"
+    code = f"import arcslip; s = arcslip.Scene({str(scene)!r}); r = s.run(); a = r[0].amplitude; del s, r, a"
+    found = subprocess.run([sys.executable, "-P", "-W", "error", "-c", code], capture_output=True, text=True, check=True)
+    assert "leak" not in found.stderr, found.stderr
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals")
+def test_signal_of_the_terminal_ends_a_computation(oscillator: dict[str, object]) -> None:
+    code = (
+        "import arcslip, os, signal, sys, threading, time\n"
+        f"scene = arcslip.Scene({oscillator!r})\n"
+        "threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()\n"
+        "try:\n"
+        "    scene.frf(for_each={'damper.normal_load': [float(i) for i in range(1, 20001)]})\n"
+        "except KeyboardInterrupt as error:\n"
+        "    print(len(error.results))\n"
+    )
+    found = subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, timeout=30, check=True)
+    assert int(found.stdout) > 0
