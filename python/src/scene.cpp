@@ -138,7 +138,11 @@ std::pair<Scene, std::size_t> with_study(const Scene& scene, const std::string& 
                                          std::optional<std::size_t> index, const std::string& json) {
   const scene::StudyType* type = catalogue().study(kind);
   if (type == nullptr) throw nb::value_error(("unknown kind of study: " + kind).c_str());
-  auto keys = std::get<Node::Object>(scene::file::read_tree(json).value);
+  Node tree = scene::file::read_tree(json);
+  auto* object = std::get_if<Node::Object>(&tree.value);
+  if (object == nullptr) throw nb::value_error("keys must be a JSON object");
+  std::vector<Member> keys = std::move(*object);
+  if (index && *index >= scene.studies.size()) throw nb::index_error("no such study");
   Scene other = scene;
   if (!index) {
     index = other.studies.size();
