@@ -41,17 +41,12 @@ def _value(value: Any) -> Any:
 
 
 def _column(values: Sequence[Any]) -> Any:
+    """Return the cells of a column, with None where they are missing, as an array of the type that they have."""
     there = {type(value) for value in values if value is not None}
-    if there <= {float, int} and there:
-        if there == {int} and None not in values:
-            return np.array(values, dtype=np.int64)
+    if there <= {float, int, bool}:
+        if len(there) == 1 and None not in values:
+            return np.array(values, dtype=there.pop())
         return np.array([np.nan if value is None else value for value in values], dtype=float)
-    if there == {bool}:
-        if None not in values:
-            return np.array(values, dtype=np.bool_)
-        return np.array([np.nan if value is None else value for value in values], dtype=float)
-    if not there:
-        return np.full(len(values), np.nan)
     return as_array([_value(value) for value in values], "text" if there == {str} else "value")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any, overload
@@ -144,10 +145,16 @@ class Results(Sequence[Result]):
         return tuple(result for result in self._all if result.study == study)
 
     def to_json(self) -> str:
-        """Return the text of the file that the command writes."""
+        """Return the text of the file that the command writes. Of results that were computed here, and not loaded."""
         if self._core is None:
             raise ValueError("these results were loaded, or unpickled: their text is that of their file")
         return self._core.json()
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the file that the command writes, which `load` reads."""
+        text = self.to_json()
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
 
     def __reduce__(self) -> Any:
         header = {key: getattr(self, key) for key in HEADER}

@@ -164,8 +164,10 @@ def test_file_that_holds_no_results_is_refused(tmp_path: Path, examples: Path) -
 
 def test_loaded_results_read_like_computed_ones(scene: arcslip.Scene, tmp_path: Path) -> None:
     results = scene.frf()
-    (tmp_path / "results.json").write_text(results.to_json())
+    results.save(tmp_path / "results.json")
     (loaded,) = arcslip.load(tmp_path / "results.json")
     assert loaded.events["peak"][0].amplitude == results[0].events["peak"][0].amplitude
     assert loaded.parameters == results[0].parameters
     assert repr(loaded) == repr(results[0])
+    with pytest.raises(ValueError, match="loaded"):
+        arcslip.load(tmp_path / "results.json").save(tmp_path / "again.json")
