@@ -29,6 +29,19 @@ def test_wheel_needs_only_what_it_carries(command: Path) -> None:
         assert "hdf5" not in text and "matio" not in text
 
 
+def test_package_works_where_the_libraries_of_the_system_are_hidden(examples: Path) -> None:
+    if subprocess.run(["unshare", "--mount", "true"], capture_output=True, check=False).returncode != 0:
+        pytest.skip("needs a mount namespace, as root has one")
+    carried = {path.name.split("-")[0] for path in Path(arcslip.__file__).parents[1].glob("arcslip.libs/*")}
+    folders = [folder for folder in Path("/usr/lib").glob("*-linux-gnu") if folder.is_dir()]
+    hidden = {path.resolve() for folder in folders for name in carried for path in folder.glob(f"**/{name}.so*")}
+    hide = [f"mount --bind /dev/null {path}" for path in sorted(hidden)]
+    code = f"import arcslip; print(arcslip.Scene({str(examples / 'blade/scene.json')!r}).run()[0].status)"
+    script = "\n".join(["set -e", *hide, f'{sys.executable} -P -c "{code}"'])
+    found = subprocess.run(["unshare", "--mount", "sh", "-c", script], capture_output=True, text=True, check=True)
+    assert carried and found.stdout == "complete\n"
+
+
 def test_command_is_installed_and_hands_on_its_exit_code(tmp_path: Path) -> None:
     script = Path(sys.executable).with_name("arcslip")
     version = subprocess.run([script, "--version"], capture_output=True, text=True, check=True).stdout
