@@ -75,7 +75,8 @@ def _result(of: Mapping[str, Any], list_: str) -> Result:
 def load(path: str | os.PathLike[str]) -> Results:
     """Read results from a JSON file that the command wrote.
 
-    Columns have no units, which such a file does not have.
+    Columns have no units, which such a file does not have. Columns whose values have members, are a column for
+    each member.
 
     Parameters
     ----------

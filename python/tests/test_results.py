@@ -31,14 +31,16 @@ def assert_same_table(a: arcslip.Table, b: arcslip.Table) -> None:
     """All columns of b, which leaves out those without a value, are in a."""
     assert len(a) == len(b)
     for name in b.columns:
+        if name not in a and isinstance(a[name.split(".")[0]][0], dict):
+            continue  # a value with members, which a file does not tell from columns
         first, second = a[name], b[name]
         if second.dtype == object:
             assert all(np.array_equal(x, y) for x, y in zip(first, second, strict=True) if y is not None)
         else:
             np.testing.assert_array_equal(first, second)
-    for name in set(a.columns) - set(b.columns):
+    for name in set(a.columns) - {each if each in a else each.split(".")[0] for each in b.columns}:
         column = a[name]
-        assert all(value is None or value == "" or value != value for value in column.tolist()), name
+        assert all(value is None or value in ("", {}) or value != value for value in column.tolist()), name
 
 
 @pytest.mark.filterwarnings("ignore::arcslip.ArcslipWarning")
