@@ -104,7 +104,7 @@ void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts&
   verb.add_option("--json", options.json, "write results as JSON to a file, or - for standard output")
       ->type_name("FILE|-");
   verb.add_option("--csv", options.csv,
-                  "write results as CSV to a file, with events and a summary next to it (a.events.csv, "
+                  "write results as CSV to a file, with events and a summary in further files (a.events.csv, "
                   "a.summary.csv), or - for standard output")
       ->type_name("FILE|-");
   if (of.type == nullptr || studies::kind_of(*of.type).takes_coefficients()) {

@@ -4,7 +4,7 @@
 //   equations/element/H:N   the damper alone, odd harmonics
 //   equations/odd/H:N       the oscillator, odd harmonics
 //   equations/all/H:N       the same with the mean and even harmonics
-//   equations/masses/H:N    the same next to 20 other masses, odd harmonics
+//   equations/masses/H:N    the same with 20 other masses, odd harmonics
 //
 // Each at another frequency than the one before, as along a branch.
 

@@ -246,14 +246,15 @@ Random cases, the same on every machine but for the moments of signals. The test
       "files whole, none silent, none left over");
   row("kills of `run`, `reduce` and `optimize` that write over older results", app_test::kills, 3,
       "killed at any moment", "201: each mix of old and new files reported by the manifest");
-  row("random searches with limits over 1 to 4 parameters, on sums, energy, frequency and stick, next to "
+  row("random searches with limits over 1 to 4 parameters, on sums, energy, frequency and stick, compared "
+      "with "
       "searches by LN_COBYLA and LD_MMA from the lowest of forty other designs over the bounds",
       limited_searches::number, 1, "random searches with limits",
       "1014. 780 of the seeds up to 999, those with the quicker responses: 446 with searches elsewhere as "
       "they are "
       "now, the last 138 of them after the last change; 70 before compared with the same other ways, 264 "
-      "next to "
-      "LN_COBYLA alone. 613 complete, none above the other ways by more than 7e-8 and 82 below them by more "
+      "compared with LN_COBYLA alone. 613 complete, none above the other ways by more than 7e-8 and 82 below "
+      "them by more "
       "than 1e-6, all limits kept in responses of their own; 150 for which no way has a design within the "
       "limits; 16 stopped where no conditions of a minimum hold, at a jump, or a kink of the amplitude or of "
       "a limit, none above the other ways by more than 3e-7; one stopped at its evaluations, 0.8 % above "
@@ -300,7 +301,7 @@ Random cases, the same on every machine but for the moments of signals. The test
   row("the same with a second mass", mode_accuracy::two_masses, 1, "damped modes of two masses",
       "100, of which 60 have no fold of an internal resonance, with 1904 motions: likewise");
   row("frequencies from 1e-8 to 1e-2 next to a fold of a Duffing oscillator: how many responses are found, "
-      "next to "
+      "compared with "
       "the cubic equation of one harmonic",
       responses_at::near_folds, 1, "next to a fold as many responses", "5000: as many at each");
   row("windows that begin or end within the hysteresis of a Duffing oscillator: how many responses their "

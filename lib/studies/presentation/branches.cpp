@@ -135,7 +135,7 @@ results::Object leaves(const scene::Scene& scene, const observables::Leaves& at)
           {"frequency", in_scene_unit(scene, at.omega), std::string(scene::unit_name(scene.frequency_unit))}};
 }
 
-// What is reported next to the table: what its motions are, where they are unstable, and what was not
+// What is reported below the table: what its motions are, where they are unstable, and what was not
 // followed.
 std::string branch_remark(const scene::Scene& scene, const ResponseBranch& branch) {
   std::string text;

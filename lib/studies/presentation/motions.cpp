@@ -94,7 +94,7 @@ std::string motion_remark(const Motion& motion) {
   text.precision(6);
   text << motion.stop.message << "; in a period the disturbance changed by the factor " << of.growth;
   if (!std::isnan(of.largest_multiplier))
-    text << ", next to a largest multiplier of modulus " << of.largest_multiplier;
+    text << ", compared with a largest multiplier of modulus " << of.largest_multiplier;
   return text.str();
 }
 
