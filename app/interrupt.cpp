@@ -1,19 +1,29 @@
 #include "interrupt.hpp"
 
+#include <arcslip/control/interruptible.hpp>
+
+#include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <utility>
 
 namespace arcslip::app {
 namespace {
 
-volatile std::sig_atomic_t end_asked = 0;  // the only state a handler may access
+std::atomic<bool> end_asked = false;  // the only state a handler may access
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+control::AbandonedThreads& abandoned() {
+  static control::AbandonedThreads threads;
+  return threads;
+}
 
 extern "C" void ask_for_end(int signal) {
-  if (end_asked != 0) {
+  if (end_asked) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);  // delivered when this handler returns
   }
-  end_asked = 1;
+  end_asked = true;
 }
 
 void watch(int signal) {
@@ -36,8 +46,18 @@ void watch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+const control::Control& by_signal() {
+  static const control::Control control{{.flag = &end_asked, .abandoned = &abandoned()}};
+  return control;
+}
+
 bool interrupted() {
-  return end_asked != 0;
+  return end_asked;
+}
+
+void leave(int code) {
+  if (abandoned().count() > 0) std::_Exit(code);
+  std::exit(code);
 }
 
 bool Interruption::is_new() {

@@ -7,13 +7,12 @@
 #include "standard_output.hpp"
 #include "verbs.hpp"
 
-#include <arcslip/control/stop_request.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/studies.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/catalogue.hpp>
 
-#include <cstdlib>
 #include <exception>
 #include <new>
 #include <ostream>
@@ -58,10 +57,9 @@ ExitCode run_program(int argc, const char* const* argv) {
   } catch (const scene::SceneError& error) {
     tell_faults(scene_file, error);
     return ExitCode::invalid_scene;
-  } catch (const scene::Interrupted& error) {
+  } catch (const control::Interrupted& error) {
     tell(error.what());
-    // A factorization may go on in a thread of its own, whose libraries must not be taken down under it.
-    std::_Exit(static_cast<int>(ExitCode::stopped_early));
+    return ExitCode::stopped_early;
   } catch (const std::bad_alloc&) {
     tell("out of memory: use fewer harmonics, a shorter range or fewer values in for_each");
   } catch (const std::exception& error) {
@@ -78,5 +76,5 @@ ExitCode run_program(int argc, const char* const* argv) {
 int main(int argc, char** argv) {
   arcslip::app::hold_standard_streams();
   arcslip::app::watch_signals();
-  return static_cast<int>(arcslip::app::run_program(argc, argv));
+  arcslip::app::leave(static_cast<int>(arcslip::app::run_program(argc, argv)));
 }

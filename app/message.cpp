@@ -19,7 +19,7 @@ void tell_line(std::string_view text) {
 
 void put(std::string_view text) {
   try {
-    output::AtomicFile file = output::AtomicFile::standard_error(interrupted);
+    output::AtomicFile file = output::AtomicFile::standard_error(by_signal());
     file.stream() << text;
     file.commit();
   } catch (const output::WriteError&) {

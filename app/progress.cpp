@@ -33,7 +33,7 @@ std::string time_left(double share, double seconds) {
 
 }  // namespace
 
-std::string progress_text(const results::Progress& progress, const std::string& unit, double seconds) {
+std::string progress_text(const control::Progress& progress, const std::string& unit, double seconds) {
   const int branches = std::max(progress.branches, 1);
   std::string line;
   const auto add = [&](const char* format, auto... values) {
@@ -63,7 +63,7 @@ ProgressLine::ProgressLine(bool quiet, std::string unit)
   next_ = begin_ + (terminal_ ? rewritten_every : reported_every);
 }
 
-void ProgressLine::show(const results::Progress& progress) {
+void ProgressLine::show(const control::Progress& progress) {
   if (!shown_) return;
   const auto now = Clock::now();
   if (now < next_) return;

@@ -18,7 +18,7 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine() { clear(); }
 
-  void show(const results::Progress& progress);
+  void show(const control::Progress& progress);
   void clear();
 
  private:
@@ -34,6 +34,6 @@ class ProgressLine {
 /// "branch 3/12  152 points  19.84 Hz  step 0.012 Hz  41 %  4 s left"; for a search, whose remaining time is
 /// unknown, "search 1/4  the certificate  37 evaluations  20.1 Hz  best 0.0123 m  12 s". seconds: elapsed
 /// time.
-std::string progress_text(const results::Progress& progress, const std::string& unit, double seconds);
+std::string progress_text(const control::Progress& progress, const std::string& unit, double seconds);
 
 }  // namespace arcslip::app

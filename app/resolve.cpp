@@ -265,7 +265,7 @@ void check_complete(const CommandOptions& options, bool is_new, const std::strin
 }  // namespace
 
 scene::Scene resolve(const CommandOptions& options, const scene::Catalogue& catalogue) {
-  scene::Scene scene = scene::read_file(options.scene, catalogue, interrupted);
+  scene::Scene scene = scene::read_file(options.scene, catalogue, by_signal());
   apply(scene, options);
   return scene;
 }

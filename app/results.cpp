@@ -188,7 +188,7 @@ std::vector<std::string> write_scene(const StudyFiles& files, const scene::Scene
         [&](std::ostream& out) {
           out << scene::write(scene::from_folder(scene, std::filesystem::path(path).parent_path().string()));
         },
-        interrupted);
+        by_signal());
   });
   return is_written ? std::vector{path} : std::vector<std::string>();
 }
@@ -217,7 +217,7 @@ DrawnFigures write_figures(const StudyFiles& files, const std::vector<results::F
   const auto draw = [&](const results::FigureData& data) {
     try {
       const output::Figures now =
-          output::draw_figures(data, files.folder, figure_name(files, data), interrupted);
+          output::draw_figures(data, files.folder, figure_name(files, data), by_signal());
       drawn.paths.insert(drawn.paths.end(), now.sources.begin(), now.sources.end());
       drawn.paths.insert(drawn.paths.end(), now.images.begin(), now.images.end());
       if (drawn.problem.empty()) drawn.problem = now.problem;  // those of others are alike

@@ -46,7 +46,7 @@ void OpenFiles::each(const Write& write) {
 
 void OpenFiles::begin(const results::Header& header, std::span<const results::Schema> schemas) {
   each([&](Open& open) {
-    open.target.emplace(open.file.path, interrupted);
+    open.target.emplace(open.file.path, by_signal());
     open.sink = open.file.sink(open.target->stream());
     open.sink->begin(header, schemas);
   });

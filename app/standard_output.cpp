@@ -12,7 +12,7 @@ namespace arcslip::app {
 void StandardOutput::write(const std::function<void(std::ostream&)>& writer) {
   if (lost_) return;
   try {
-    output::AtomicFile file = output::AtomicFile::standard_output(interrupted);
+    output::AtomicFile file = output::AtomicFile::standard_output(by_signal());
     writer(file.stream());
     file.commit();
   } catch (const output::WriteError& error) {

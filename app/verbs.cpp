@@ -25,7 +25,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <iterator>
 #include <optional>
 #include <ostream>
@@ -121,15 +120,7 @@ std::vector<results::FigureData> compute_visibly(const scene::Scene& scene, cons
                                                  studies::RunOptions how, const CommandOptions& options,
                                                  results::Sink& sink, Interruption& interruption) {
   ProgressLine line(options.quiet, std::string(scene::unit_name(scene.frequency_unit)));
-  how.progress = [&](const results::Progress& now) {
-    if (!interrupted()) {
-      line.show(now);
-      return true;
-    }
-    line.clear();
-    tell_partial(interruption);
-    return false;
-  };
+  how.control = by_signal().child({.report = [&](const control::Progress& now) { line.show(now); }});
   std::vector<results::FigureData> figures = studies::kind_of(*study.type).run(scene, study, how, 0, sink);
   line.clear();
   tell_partial(interruption);
@@ -284,7 +275,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
         screen.write(writer);
       } else {
         writing.attempt(results::visible(each.path),
-                        [&] { output::write_file(each.path, writer, interrupted); });
+                        [&] { output::write_file(each.path, writer, by_signal()); });
       }
     }
   }
@@ -306,7 +297,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
 ExitCode check(const scene::Scene& scene, const CommandOptions& options) {
   tell_beyond_reduction(scene, scene.studies);
   if (!options.quiet) {
-    if (const std::string text = observables::text_of_resonances(scene, interrupted); !text.empty())
+    if (const std::string text = observables::text_of_resonances(scene, by_signal()); !text.empty())
       tell(text);
     StandardOutput screen;
     screen.write_lines([&](std::ostream& out) { out << scene::write(scene); });
@@ -322,7 +313,7 @@ ExitCode reduce(const scene::Scene& scene, const CommandOptions& options) {
       options.out.empty()
           ? std::filesystem::path("out") / (std::filesystem::path(options.scene).stem().string() + "_reduced")
           : std::filesystem::path(options.out);
-  model::ReducedScene reduced = model::reduced_scene(scene, folder.string(), interrupted);
+  model::ReducedScene reduced = model::reduced_scene(scene, folder.string(), by_signal());
   reduced.files.emplace_back("reduced.json", std::move(reduced.scene));
   const std::vector<std::string> sources = sources_of(scene, options.scene);
   ResultsFolder held(folder.string(), sources);
@@ -342,7 +333,7 @@ ExitCode reduce(const scene::Scene& scene, const CommandOptions& options) {
   for (std::size_t i = 0; i < places.size(); ++i)
     if (writing.attempt(results::visible(places[i].path), [&] {
           output::write_file(
-              places[i].path, [&](std::ostream& out) { out << reduced.files[i].second; }, interrupted);
+              places[i].path, [&](std::ostream& out) { out << reduced.files[i].second; }, by_signal());
         })) {
       paths.push_back(places[i].path);
       written << results::visible(places[i].path) << '\n';
@@ -384,7 +375,7 @@ ExitCode run_scene(scene::Scene scene, CommandOptions options) {
 ExitCode execute(const CommandOptions& options, const scene::Catalogue& catalogue) {
   scene::Scene scene = resolve(options, catalogue);
   for (const std::string& doubt : scene::manifest_doubts(scene, options.scene).changed) tell(doubt);
-  if (const std::string done = observables::prepare(scene, interrupted); !done.empty() && !options.quiet)
+  if (const std::string done = observables::prepare(scene, by_signal()); !done.empty() && !options.quiet)
     tell(done);
   if (options.verb == "run") return run_scene(std::move(scene), options);
   if (options.verb == "reduce") return reduce(scene, options);

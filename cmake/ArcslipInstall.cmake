@@ -1,4 +1,4 @@
-# The installed package: find_package(arcslip) gives arcslip::continuation, arcslip::structures, arcslip::optimize.
+# The installed package: find_package(arcslip) gives arcslip::control, arcslip::continuation, arcslip::structures, arcslip::optimize.
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/arcslip)

@@ -1,7 +1,7 @@
 # cmake -P, at the installation: installs the public headers, which are the umbrella <arcslip/NAME.hpp> of each library and
 # all that these include, directly or through others. BUILD is the folder of the build, PLACE the folder for headers.
 cmake_minimum_required(VERSION 3.25)
-set(libraries continuation structures optimize)
+set(libraries control continuation structures optimize)
 list(TRANSFORM libraries PREPEND ${BUILD}/include/ OUTPUT_VARIABLE roots)
 list(TRANSFORM libraries REPLACE "(.+)" "arcslip/\\1.hpp" OUTPUT_VARIABLE wanted)
 set(known ${wanted})

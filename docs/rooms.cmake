@@ -6,7 +6,8 @@ cmake_minimum_required(VERSION 3.25)
 get_filename_component(FOLDER "${FOLDER}" ABSOLUTE)
 
 file(GLOB_RECURSE files RELATIVE ${FOLDER}/lib ${FOLDER}/lib/*.hpp ${FOLDER}/lib/*.cpp)
-set(rooms continuation)
+set(rooms control continuation)
+set(seen_by_continuation control)
 foreach(file IN LISTS files)
   get_filename_component(room "${file}" DIRECTORY)
   if(NOT room)  # the umbrella

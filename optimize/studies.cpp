@@ -1,5 +1,6 @@
 #include <arcslip/optimize/studies.hpp>
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/study/optimum_figures.hpp>
 #include <arcslip/optimize/study/optimum_results.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
@@ -269,8 +270,8 @@ std::unique_ptr<studies::Computation> computed_curve(const scene::Scene& scene,
                                                      const OptimumSettings& settings) {
   auto of = std::make_unique<studies::ComputationOf<OptimumCurveResult>>(
       described_curves(scene, settings.problem, settings.along->name),
-      [settings](const studies::Case& at, const results::ProgressCallback& progress) {
-        return std::vector{optimum_curve_study(at.scene, settings, progress)};
+      [settings](const studies::Case& at, const control::Control& control) {
+        return std::vector{optimum_curve_study(at.scene, settings, control)};
       },
       [&scene](std::span<const OptimumCurveResult> all) { return std::vector{figures_of(scene, all)}; });
   of->truncation_of_items = [](std::span<const OptimumCurveResult> all) { return truncation_of(all); };
@@ -285,10 +286,10 @@ std::unique_ptr<studies::Computation> computed_optimum(const scene::Scene& scene
   if (settings.along) return computed_curve(scene, settings);
   auto of = std::make_unique<studies::ComputationOf<OptimumResult>>(
       described_optima(scene, settings.problem),
-      [settings, curves = options.figures, threads = options.threads](
-          const studies::Case& at, const results::ProgressCallback& progress) {
+      [settings, curves = options.figures, threads = options.threads](const studies::Case& at,
+                                                                      const control::Control& control) {
         return std::vector{
-            optimum_study(at.scene, settings, progress,
+            optimum_study(at.scene, settings, control,
                           {.curves = curves, .alone = at.alone, .threads = at.alone ? threads : 1})};
       },
       [&scene](std::span<const OptimumResult> all) { return figures_of(scene, all); });

@@ -15,14 +15,9 @@ bool is_regular(const Correction& found) {
 
 class Search {
  public:
-  Search(const Problem& problem, Corrector& with, const Options& options,
-         const std::function<bool()>& keep_going, const Vector& row, const Vector& guess)
-      : problem_(problem),
-        with_(with),
-        options_(options),
-        keep_going_(keep_going),
-        row_(row),
-        guess_(guess) {}
+  Search(const Problem& problem, Corrector& with, const Options& options, const control::Control& control,
+         const Vector& row, const Vector& guess)
+      : problem_(problem), with_(with), options_(options), control_(control), row_(row), guess_(guess) {}
 
   Correction newton(Vector& v, Damping damping) {
     v = guess_;
@@ -46,7 +41,7 @@ class Search {
     return last;
   }
 
-  bool keep_going() { return !is_stopped && !(is_stopped = !keep_going_()); }
+  bool keep_going() { return !is_stopped && !(is_stopped = !control_.keep_going()); }
 
   bool is_stopped = false;
 
@@ -54,7 +49,7 @@ class Search {
   const Problem& problem_;
   Corrector& with_;
   const Options& options_;
-  const std::function<bool()>& keep_going_;
+  const control::Control& control_;
   const Vector& row_;
   Vector guess_;
 };
@@ -62,8 +57,8 @@ class Search {
 }  // namespace
 
 FirstPoint first_point(const Problem& problem, Corrector& with, const Options& options,
-                       const std::function<bool()>& keep_going, const Vector& row, Vector& v) {
-  Search search(problem, with, options, keep_going, row, v);
+                       const control::Control& control, const Vector& row, Vector& v) {
+  Search search(problem, with, options, control, row, v);
   FirstPoint first{search.newton(v, Damping::natural), with.failure()};
   const Correction& by_newton = first.correction;
   if (by_newton.converged || (by_newton.iterations == 0 && !by_newton.evaluated)) return first;

@@ -8,7 +8,6 @@
 #include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/continuation/problem/options.hpp>
 
-#include <functional>
 #include <string>
 
 namespace arcslip::continuation {
@@ -16,12 +15,12 @@ namespace arcslip::continuation {
 struct FirstPoint {
   Correction correction;    // to the solution; where none is found, that of the first try
   std::string failure;      // Corrector::failure() of that
-  bool is_stopped = false;  // by keep_going, before any other try
+  bool is_stopped = false;  // by the control, before any other try
 };
 
 /// v: n + 1, the guess (u, p), becomes the solution at the same p; where none is found, the place where the
 /// first try ended. row: the unit vector of p.
 FirstPoint first_point(const Problem& problem, Corrector& with, const Options& options,
-                       const std::function<bool()>& keep_going, const Vector& row, Vector& v);
+                       const control::Control& control, const Vector& row, Vector& v);
 
 }  // namespace arcslip::continuation

@@ -32,7 +32,7 @@ class Prediction {
     goes_on_ = along > least_slope;  // else the branch turns away
     slope_ = goes_on_ ? Vector(place.tangent / along) : direction_;
   }
-  void go_on_to(double x, const CurvePoint& place) {
+  void continue_to(double x, const CurvePoint& place) {
     const double h = x - x_;
     const bool went_on = goes_on_;
     second_ = v_;
@@ -122,7 +122,7 @@ class KinkSearch {
     }
     if (x == length_) return Finding::none;  // the piece does not end
     if (aim == Aim::again) return_to_outside();
-    return go_on_to(x, aim, end.outside, at) ? Finding::nothing_yet : Finding::none;
+    return continue_to(x, aim, end.outside, at) ? Finding::nothing_yet : Finding::none;
   }
 
   // Goes ahead on the prediction until it leaves the piece, or reaches upper_.
@@ -207,7 +207,7 @@ class KinkSearch {
   }
 
   // False if there is no tangent.
-  bool go_on_to(double x, Aim aim, double predicted, const Correction& at) {
+  bool continue_to(double x, Aim aim, double predicted, const Correction& at) {
     const bool by_prediction = aim == Aim::predicted_end;
     error_ = by_prediction ? prediction_.error(x - lower_) : 0;
     error_of_cubic_ = prediction_.is_cubic();
@@ -218,7 +218,7 @@ class KinkSearch {
     kink_.arclength = from_.arclength + lower_;
     last_ = at;
     if (!settle(with_, kink_)) return false;
-    prediction_.go_on_to(lower_, kink_);
+    prediction_.continue_to(lower_, kink_);
     return true;
   }
 

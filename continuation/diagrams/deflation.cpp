@@ -108,7 +108,7 @@ std::optional<Vector> Deflation::solve(Vector u, double limit) {
   if (!evaluate(u, Needs::jacobian)) return {};
   double before = 0;
   for (int k = 0; k < options_.iterations; ++k) {
-    if (options_.go_on && !options_.go_on()) return {};
+    if (!options_.control.keep_going()) return {};
     if (!solver_) solver_ = suitable_solver(evaluator_->jacobian());
     if (!solver_->factorize(evaluator_->jacobian(), none_)) return {};
     s_ = -evaluator_->residual();

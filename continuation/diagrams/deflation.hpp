@@ -20,8 +20,8 @@
 
 #include <arcslip/continuation/problem/linear_solver.hpp>
 #include <arcslip/continuation/problem/problem.hpp>
+#include <arcslip/control/run_control.hpp>
 
-#include <functional>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -34,7 +34,7 @@ struct DeflationOptions {
   double apart = 1e-5;               // least distance of distinct solutions, relative to 1 + |u|, in scales
   int solutions = 100;               // maximum number found
   MakeLinearSolver linear_solver{};  // none: the problem's own, or the default for its Jacobian
-  std::function<bool()> go_on{};  // called at each iteration; false ends the search with the solutions so far
+  control::Control control{};  // asked at each iteration; its end is that of the search, with what was found
 };
 
 /// known: solutions, to rounding; guesses: initial guesses, each n. Repeats from each guess until it yields

@@ -2,6 +2,7 @@
 // Options of a trace. All have defaults; check() validates them.
 
 #include <arcslip/continuation/problem/problem.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -74,16 +75,16 @@ struct Options {
   NewtonOptions newton{};
   StepOptions step{};
   long points = 100000;            // maximum
-  double seconds = 0;              // maximum wall time; 0: no limit
+  double seconds = 0;              // maximum wall time, a deadline of `control`; 0: no limit
   std::size_t memory = 0;          // maximum bytes of the points kept; 0: no limit
   bool keep_points = true;         // false: points keep neither unknowns nor tangent; only observers see them
   double largest_state = 1e12;     // |u| in scales
   double event_tolerance = 1e-12;  // of the free parameter at an event, relative
   MakeLinearSolver linear_solver{};  // none: the problem's own, or the default for its Jacobian
 
-  /// Called before each attempted step, so that a trace can also be stopped while steps are rejected: false
-  /// ends it with reason `user`. Unlike for an observer, the problem is not evaluated for it.
-  std::function<bool()> go_on{};
+  /// Asked before each attempted step, so that a trace can also be stopped while steps are rejected: its end
+  /// is that of the trace, with reason `user`. Unlike for an observer, the problem is not evaluated for it.
+  control::Control control{};
 
   /// Compares J and dF/dp with differences of F along one or two directions: at points 1, 8, 64, 512 ...,
   /// and, as rarely, where Newton's method converges too slowly (doubt_jacobian() in jacobian_check.hpp).

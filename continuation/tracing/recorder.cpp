@@ -54,14 +54,14 @@ void Recorder::warn_of_unlocated(const Event& event) {
 }
 
 bool Recorder::events_of(TrialStep& trial) {
-  bool go_on = true;
+  bool keep_going = true;
   const CurvePoint* from = &s_.here;
   for (const PassedKink& corner : trial.corners) {
-    if (!go_on || terminal_) break;
-    go_on = pass(*from, corner);
+    if (!keep_going || terminal_) break;
+    keep_going = pass(*from, corner);
     from = &corner.beyond;
   }
-  if (!go_on || terminal_) return go_on;
+  if (!keep_going || terminal_) return keep_going;
   const auto& crossing = trial.crossing;
   const bool crossed = crossing && crossing->event.located && !crossing->event.nonsmooth &&
                        crossing->place.arclength > from->arclength;
@@ -74,33 +74,33 @@ bool Recorder::events_of(TrialStep& trial) {
 // the branch.
 bool Recorder::pass(const CurvePoint& from, const PassedKink& corner) {
   const CurvePoint& kink = corner.before;
-  bool go_on = report(events_.between(from, kink));
-  if (!go_on || terminal_) return go_on;
-  go_on = report(events_.across(corner));
+  bool keep_going = report(events_.between(from, kink));
+  if (!keep_going || terminal_) return keep_going;
+  keep_going = report(events_.across(corner));
   if (terminal_ || angle_between(main_.dot(kink.tangent, corner.beyond.tangent)) < visible_corner)
-    return go_on;
+    return keep_going;
   keep(kink, {});
-  if (!go_on || !observer_) return go_on;
+  if (!keep_going || !observer_) return keep_going;
   const auto now = events_.look_at(kink);
   return !now || observer_(*now, nullptr);
 }
 
 bool Recorder::report(std::vector<LocatedEvent>&& all) {
-  bool go_on = true;
+  bool keep_going = true;
   for (LocatedEvent& found : all) {
     warn_of_unlocated(found.event);
     const Event* event = add(std::move(found.event));
-    if (observer_ && go_on) {
+    if (observer_ && keep_going) {
       const auto now = events_.look_at(found.place);
       if (!now) main_.move_to(found.place.v);  // at a branch point B may be singular to the last bit
-      go_on = observer_(now ? *now : accepted(main_, found.place), event);
+      keep_going = observer_(now ? *now : accepted(main_, found.place), event);
     }
     const bool terminal = std::any_of(monitors_.begin(), monitors_.end(), [&](const Monitor& m) {
       return m.terminal && m.name == event->monitor;
     });
     if (terminal && !terminal_) terminal_ = std::move(found.place);
   }
-  return go_on;
+  return keep_going;
 }
 
 // In order of arclength: an event may have been pending for a few points.

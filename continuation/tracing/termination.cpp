@@ -95,8 +95,8 @@ bool approaches_asymptotically(const Corrector& in, const CurvePoint& before, co
   return std::isfinite(now) && std::log(now / then) > least_power * std::log(x / x_before);
 }
 
-std::optional<BranchStop> limit_reached(const Options& options, const Branch& branch, int unknowns,
-                                        double size, double parameter, double seconds) {
+std::optional<BranchStop> limit_reached(const Options& options, const control::Control& timed,
+                                        const Branch& branch, int unknowns, double size, double parameter) {
   if (size > options.largest_state)
     return BranchStop{StopReason::state_too_large, size, options.largest_state,
                       "the solution grows without bound near " + text(parameter)};
@@ -105,8 +105,8 @@ std::optional<BranchStop> limit_reached(const Options& options, const Branch& br
     return BranchStop{StopReason::point_limit, static_cast<double>(points),
                       static_cast<double>(options.points),
                       "reached the maximum number of points, " + std::to_string(options.points)};
-  if (options.seconds > 0 && seconds >= options.seconds)
-    return BranchStop{StopReason::time_limit, seconds, options.seconds,
+  if (!timed.keep_going() && options.control.ending().reason == control::EndReason::none)
+    return BranchStop{StopReason::time_limit, timed.ending().seconds, options.seconds,
                       "reached the time limit of " + text(options.seconds) + " s"};
   if (options.memory > 0) {
     const auto numbers = 2 * static_cast<std::size_t>(unknowns) + 1;

@@ -44,9 +44,10 @@ bool approaches_asymptotically(const Corrector& in, const CurvePoint& before, co
 
 // The limits of a trace: state, points, time and memory.
 
-/// The limit reached, if any. size: |u| in scales, at the parameter; seconds: since the trace started.
-std::optional<BranchStop> limit_reached(const Options& options, const Branch& branch, int unknowns,
-                                        double size, double parameter, double seconds);
+/// The limit reached, if any. timed: Options::control with Options::seconds. size: |u| in scales, at the
+/// parameter.
+std::optional<BranchStop> limit_reached(const Options& options, const control::Control& timed,
+                                        const Branch& branch, int unknowns, double size, double parameter);
 
 // Closed branches: the return to the start.
 

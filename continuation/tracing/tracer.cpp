@@ -134,7 +134,7 @@ Tracer::Impl::Outcome Tracer::Impl::refuse(Rejected why, double value, double li
 
 // Whether a further step is to be tried; otherwise the branch has ended.
 bool Tracer::Impl::may_try() {
-  if (options_.go_on && !options_.go_on()) return end(StopReason::user, 1, 1, "stopped by the caller");
+  if (!options_.control.keep_going()) return end(StopReason::user, 1, 1, "stopped by the caller");
   if (!jacobian_.can_continue())
     return end(StopReason::wrong_jacobian, s_.jacobian_error, largest_jacobian_error,
                "the branch cannot be continued: " + s_.jacobian_doubt);
@@ -318,7 +318,7 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::close_loop() {
 }
 
 bool Tracer::Impl::accept() {
-  const bool go_on = record_.events_of(trial_);
+  const bool keep_going = record_.events_of(trial_);
   if (record_.terminal()) return end_at(*record_.terminal());
   CurvePoint& place = trial_.end;
   record_.warn_of_undefined(place);
@@ -333,7 +333,7 @@ bool Tracer::Impl::accept() {
   std::swap(s_.here, place);
   rejected_before_ = s_.branch.counts.rejected_steps;
   jacobian_.check_some();
-  if (!go_on || !record_.show_last_point()) return end(StopReason::user, 1, 1, "stopped by the caller");
+  if (!keep_going || !record_.show_last_point()) return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;
 }
 
@@ -358,14 +358,8 @@ void Tracer::Impl::end_in_tail(double bound) {
           " in scales");
 }
 
-// 0: there is no limit.
-double Tracer::Impl::seconds() const {
-  if (options_.seconds == 0) return 0;
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-}
-
 bool Tracer::Impl::within_limits() {
-  const auto stop = limit_reached(options_, s_.branch, n_, main_.norm_u(s_.here.v), s_.here.v[n_], seconds());
+  const auto stop = limit_reached(options_, timed_, s_.branch, n_, main_.norm_u(s_.here.v), s_.here.v[n_]);
   return !stop || end(stop->reason, stop->value, stop->limit, stop->message);
 }
 

@@ -18,7 +18,6 @@
 #include <arcslip/continuation/tracing/transverse_space.hpp>
 #include <arcslip/continuation/tracing/trial_step.hpp>
 
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -77,12 +76,11 @@ class Tracer::Impl {
   void end_in_tail(double bound);
   bool end_at(const CurvePoint& terminal);
   bool within_limits();
-  double seconds() const;
-  bool is_out_of_time() const { return options_.seconds > 0 && seconds() >= options_.seconds; }
   bool end(StopReason reason, double value, double limit, std::string message);
 
   std::shared_ptr<const Problem> problem_;
   Options options_;
+  control::Control timed_;  // with the limit of seconds
   std::vector<Monitor> monitors_;
   State s_;
   int n_;
@@ -98,7 +96,6 @@ class Tracer::Impl {
   TrialStep trial_;
   Vector row_, v_;            // n + 1
   long rejected_before_ = 0;  // steps, before the last point
-  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace arcslip::continuation

@@ -96,6 +96,7 @@ Tracer::Impl::Impl(std::shared_ptr<const Problem> problem, State state, const Op
                    std::vector<Monitor> monitors, Observer observer)
     : problem_(std::move(problem)),
       options_(within(problem_->parameters()[static_cast<std::size_t>(state.free)], options)),
+      timed_(options_.control.until(options_.seconds)),
       monitors_(std::move(monitors)),
       s_(std::move(state)),
       n_(problem_->size()),
@@ -160,9 +161,8 @@ bool Tracer::Impl::begin() {
   main_.border_row(s_.here.tangent, row_);
   const Vector guess = s_.here.v;
   // A start with a tangent is a prediction; without, it may be far from the branch.
-  const auto keep_going = [this] { return (!options_.go_on || options_.go_on()) && !is_out_of_time(); };
   const FirstPoint first = given ? FirstPoint{main_.correct(s_.here.v, row_, false), main_.failure()}
-                                 : first_point(*problem_, main_, options_, keep_going, row_, s_.here.v);
+                                 : first_point(*problem_, main_, options_, timed_, row_, s_.here.v);
   const Correction& correction = first.correction;
   if (!correction.converged) return end_at_start(first, guess, given);
   if (!settle(main_, s_.here)) {

@@ -2,6 +2,7 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,7 @@ constexpr long longest_ramp = 3000;  // points; some 300 are usual, a branch tha
 // laws are antisymmetric, u at -1 is -u at 1: so it may leave rest on either side, or return through 0, where
 // u need not be zero.
 std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vector p, double from,
-                           const Vector& u, const std::function<bool()>& go_on) {
+                           const Vector& u, const control::Control& control) {
   const int factor = problem->excitation_factor();
   p[factor] = from;
   continuation::Options options;
@@ -31,7 +32,7 @@ std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vec
   options.check_jacobian = false;
   options.step.largest_parameter = 0.01;
   options.points = longest_ramp;
-  options.go_on = go_on;
+  options.control = control;
   const auto branch = continuation::trace(problem, {u, p, factor, 1}, options);
   if (branch.stop.reason != continuation::StopReason::boundary) return {};
   const double end = branch.points.back().parameter;
@@ -57,12 +58,12 @@ Vector stuck_response(const HbmProblem& problem, const Vector& p) {
 
 // The ramp from the largest part of the excitation at which Newton's method converges.
 std::optional<Vector> ramp_from_part(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
-                                     const std::function<bool()>& go_on) {
+                                     const control::Control& control) {
   Vector part = p;
   double& factor = part[problem->excitation_factor()];
-  for (factor = 0.5; factor >= least_part && (!go_on || go_on()); factor *= 0.5)
+  for (factor = 0.5; factor >= least_part && control.keep_going(); factor *= 0.5)
     if (const auto u = response_near(*problem, part, stuck_response(*problem, part)))
-      return ramp(problem, p, factor, *u, go_on);
+      return ramp(problem, p, factor, *u, control);
   return {};
 }
 
@@ -160,7 +161,7 @@ class Gradual final : public continuation::Problem {
 };
 
 std::optional<Vector> gradual(const std::shared_ptr<const HbmProblem>& problem, const Vector& p, bool springs,
-                              const std::function<bool()>& go_on) {
+                              const control::Control& control) {
   Vector with = p.head(p.size() - 1);
   const model::Model model = springs ? with_springs(problem->model(), with) : problem->model();
   DynamicStiffness linear(model, problem->coordinates(), problem->harmonics());
@@ -174,7 +175,7 @@ std::optional<Vector> gradual(const std::shared_ptr<const HbmProblem>& problem, 
   options.upper = 1;
   options.check_jacobian = false;
   options.points = longest_ramp;
-  options.go_on = go_on;
+  options.control = control;
   const auto equations = std::make_shared<const Gradual>(problem, linear);
   Vector at(p.size() + 1);
   at << p, 0;
@@ -190,7 +191,7 @@ constexpr double farthest_start = 4;                           // decades from t
 // Newton's method from motions at random, the same in each run: of a size for the mean and one for all
 // harmonics, which fall as 1/n^2.
 std::optional<Vector> from_random_starts(const HbmProblem& problem, const Vector& p,
-                                         const std::function<bool()>& go_on) {
+                                         const control::Control& control) {
   const Harmonics& h = problem.harmonics();
   const Vector scales = problem.scales();
   std::mt19937_64 random(1);
@@ -199,7 +200,7 @@ std::optional<Vector> from_random_starts(const HbmProblem& problem, const Vector
   };
   Vector u(problem.size());
   const int starts = std::min(random_starts, unknowns_of_starts / problem.size());
-  for (int start = 0; start < starts && (!go_on || go_on()); ++start) {
+  for (int start = 0; start < starts && control.keep_going(); ++start) {
     const double mean = std::pow(10, between(-farthest_start, farthest_start));
     const double moving = std::pow(10, between(-farthest_start, farthest_start));
     for (Eigen::Index at = 0; at < u.size(); at += h.size())
@@ -239,8 +240,8 @@ std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, 
 }
 
 std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
-                                   const std::function<bool()>& go_on) {
-  const auto stopped = [&] { return go_on && !go_on(); };
+                                   const control::Control& control) {
+  const auto stopped = [&] { return !control.keep_going(); };
   const Vector rest = Vector::Zero(problem->size());
   if (stopped()) return {};
   if (const auto found = response_near(*problem, p, rest)) return found;
@@ -248,13 +249,13 @@ std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& prob
     if (stopped()) return {};
     if (const auto found = response_near(*problem, p, guess(*problem, p))) return found;
   }
-  if (const auto found = ramp(problem, p, 0, rest, go_on)) return found;
-  if (const auto found = ramp_from_part(problem, p, go_on)) return found;
+  if (const auto found = ramp(problem, p, 0, rest, control)) return found;
+  if (const auto found = ramp_from_part(problem, p, control)) return found;
   for (const bool springs : {false, true}) {
     if (stopped()) return {};
-    if (const auto found = gradual(problem, p, springs, go_on)) return found;
+    if (const auto found = gradual(problem, p, springs, control)) return found;
   }
-  return from_random_starts(*problem, p, go_on);
+  return from_random_starts(*problem, p, control);
 }
 
 }  // namespace arcslip::hbm

@@ -1,6 +1,7 @@
 #include <arcslip/hbm/linear_modes.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <cmath>
 #include <complex>
@@ -117,7 +118,7 @@ std::vector<LinearMode> linear_modes(const HbmProblem& problem, const Vector& p,
 }
 
 std::optional<DampedMode> damped_mode(const HbmProblem& problem, const Vector& p, const HbmEvaluator& at,
-                                      const LinearMode& undamped, const std::function<bool()>& go_on) {
+                                      const LinearMode& undamped, const control::Control& control) {
   const auto [M, C, K] = linearized(problem, p, &at, undamped.omega);
   if (M.rows() > most_coordinates) return {};
   DampedMode mode{undamped.omega, 0, undamped.shape.cast<Complex>()};
@@ -126,7 +127,7 @@ std::optional<DampedMode> damped_mode(const HbmProblem& problem, const Vector& p
     const double share = std::pow(least_damping, 1 - static_cast<double>(step) / damping_steps);
     bool converged = false;
     for (int k = 0; k < most_iterations && !converged; ++k) {  // Rayleigh quotients, of symmetric matrices
-      if (go_on && !go_on()) return {};
+      if (!control.keep_going()) return {};
       const ComplexMatrix A = K.cast<Complex>() + Complex(0, mode.omega * share) * C.cast<Complex>();
       const ComplexMatrix v = continuation::solve_complex(A - mu * M.cast<Complex>(), M * mode.shape);
       if (converged = !v.allFinite(); converged) break;  // the shift is the eigenvalue itself

@@ -2,9 +2,9 @@
 // Modes of the structure linearized about a small motion, in which contacts that stick are springs, and gaps
 // rest as they are.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/problem.hpp>
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,13 +36,13 @@ std::vector<LinearMode> linear_modes(const HbmProblem& problem, const Vector& p,
 ///
 /// the limit at small amplitudes of the motion that hbm/mode.hpp defines. Followed from an undamped mode
 /// while the damping grows from nothing; empty where that does not come to its end, as where the mode ceases
-/// to oscillate, for more than 300 coordinates, and if go_on returns false. `at` as above.
+/// to oscillate, for more than 300 coordinates, and if `control` ends. `at` as above.
 struct DampedMode {
   double omega = 0, damping_ratio = 0;
   ComplexVector shape;
 };
 std::optional<DampedMode> damped_mode(const HbmProblem& problem, const Vector& p, const HbmEvaluator& at,
-                                      const LinearMode& undamped, const std::function<bool()>& go_on = {});
+                                      const LinearMode& undamped, const control::Control& control = {});
 
 /// The unknowns of the motion y = Re shape exp(i omega t).
 Vector unknowns_of(const HbmProblem& problem, const ComplexVector& shape);

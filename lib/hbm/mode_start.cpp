@@ -2,6 +2,7 @@
 
 #include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -23,13 +24,13 @@ constexpr double isolated = 1e-10;  // a motion of modes of one frequency: the l
 
 // The static displacement: the means of the motion without excitation.
 std::optional<Vector> rest_of(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
-                              const std::function<bool()>& go_on) {
+                              const control::Control& control) {
   Vector rest = Vector::Zero(problem->size());
   if (problem->harmonics().odd) return rest;
   const auto at = problem->hbm_evaluator();
   if (at->move_to(rest, p, continuation::Needs::residual) != continuation::Evaluated::ok) return {};
   if (at->residual().isZero(0)) return rest;
-  const auto found = steady_state(problem, p, go_on);
+  const auto found = steady_state(problem, p, control);
   if (!found) return {};
   for (int i = 0; i < problem->blocks(); ++i)
     rest[i * problem->harmonics().size()] = (*found)[i * problem->harmonics().size()];
@@ -170,7 +171,7 @@ bool is_isolated(const ModeProblem& problem, const Vector& v) {
 // Newton's method from a linear mode, at the amplitude or as far below as the mode is linear. shape: per unit
 // of the response.
 bool find_motion(const ComplexVector& shape, double omega, double damping_ratio, double amplitude, bool alone,
-                 const std::function<bool()>& go_on, ModeStart& start) {
+                 const control::Control& control, ModeStart& start) {
   const HbmProblem& motions = start.problem->motions();
   const int n = motions.size();
   const Vector per_response = unknowns_of(motions, shape);
@@ -181,7 +182,7 @@ bool find_motion(const ComplexVector& shape, double omega, double damping_ratio,
   continuation::NewtonOptions newton;
   newton.iterations = 30;
   bool found = false;
-  for (int k = 0; k <= decades && (!go_on || go_on()); ++k) {
+  for (int k = 0; k <= decades && control.keep_going(); ++k) {
     const double at_amplitude = std::pow(10, -k) * amplitude;
     guess[n + 3] = std::log(at_amplitude);
     continuation::Counts counts;
@@ -200,7 +201,7 @@ bool find_motion(const ComplexVector& shape, double omega, double damping_ratio,
 }  // namespace
 
 ModeStart mode_start(const std::shared_ptr<const model::Model>& model, const model::Model& excited, int mode,
-                     double amplitude, const std::function<bool()>& go_on) {
+                     double amplitude, const control::Control& control) {
   const auto j = static_cast<std::size_t>(mode - 1);
   ModeStart start;
   start.amplitude = amplitude;
@@ -212,7 +213,7 @@ ModeStart mode_start(const std::shared_ptr<const model::Model>& model, const mod
 
   const auto motions = std::make_shared<const HbmProblem>(model, model->harmonics, amplitude, omega, omega);
   Vector p = parameters_at(*motions, omega);
-  const auto rest = rest_of(motions, p, go_on);
+  const auto rest = rest_of(motions, p, control);
   if (!rest) {
     start.failure = "no static displacement was found under the loads that do not change";
     return start;
@@ -238,12 +239,12 @@ ModeStart mode_start(const std::shared_ptr<const model::Model>& model, const mod
   const LinearMode& linear = modes[j];
 
   start.problem = std::make_shared<const ModeProblem>(motions, *rest, omega);
-  if (find_motion(shape, omega, linear.damping_ratio, amplitude, alone, go_on, start)) return start;
+  if (find_motion(shape, omega, linear.damping_ratio, amplitude, alone, control, start)) return start;
   if (alone) {  // where damping changes the mode
-    if (const auto damped = damped_mode(*motions, p, *at, linear, go_on)) {
+    if (const auto damped = damped_mode(*motions, p, *at, linear, control)) {
       const Complex moved = response.cast<Complex>().dot(damped->shape);
       if (std::abs(moved) > at_a_node * damped->shape.cwiseAbs().maxCoeff() &&
-          find_motion(damped->shape / moved, damped->omega, damped->damping_ratio, amplitude, alone, go_on,
+          find_motion(damped->shape / moved, damped->omega, damped->damping_ratio, amplitude, alone, control,
                       start))
         return start;
     }

@@ -181,8 +181,8 @@ HbmProblem::HbmProblem(std::shared_ptr<const model::Model> model, const Harmonic
   parameters_.push_back({"excitation_factor", "-", 1, 1, 0, 1e300});
   for (const auto& element : model_->elements) blocks_ += element.law->auxiliary();
   if (model_->threads > 1 && model_->elements.size() > 1)
-    workers_ =
-        std::make_shared<Workers>(std::min(model_->threads, static_cast<int>(model_->elements.size())));
+    workers_ = std::make_shared<control::Workers>(
+        std::min(model_->threads, static_cast<int>(model_->elements.size())));
 }
 
 HbmProblem::HbmProblem(const HbmProblem& other, double displacement) : HbmProblem(other) {

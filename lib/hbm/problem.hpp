@@ -8,11 +8,11 @@
 // model's parameters ("frequency" first, rad/s), and last "excitation_factor", which scales all forces, from
 // rest (u = 0 at 0) to the scene (1).
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/control/workers.hpp>
 #include <arcslip/hbm/element_gather.hpp>
 #include <arcslip/hbm/linear/dynamic_stiffness.hpp>
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -69,8 +69,8 @@ class HbmEvaluator final : public continuation::Evaluator {
   Eigen::Index displacements_;  // before the auxiliary unknowns
   DynamicStiffness stiffness_;
   std::vector<Part> parts_;
-  std::shared_ptr<Workers> workers_;  // null: one thread
-  double seconds_[2] = {0, 0};        // of all elements in one thread: without and with their Jacobians
+  std::shared_ptr<control::Workers> workers_;  // null: one thread
+  double seconds_[2] = {0, 0};  // of all elements in one thread: without and with their Jacobians
   std::vector<std::size_t> latest_to_leave_;   // a piece, of parts_
   std::optional<std::uint64_t> tested_piece_;  // the last one in which a point was found
   Vector u_, R_;
@@ -112,7 +112,7 @@ class HbmProblem final : public continuation::Problem {
   double displacement() const { return displacement_; }
   int excitation_factor() const { return static_cast<int>(parameters_.size()) - 1; }
   /// Of Model::threads, which evaluators share; null: one.
-  const std::shared_ptr<Workers>& workers() const { return workers_; }
+  const std::shared_ptr<control::Workers>& workers() const { return workers_; }
 
  private:
   std::shared_ptr<const model::Model> model_;
@@ -122,7 +122,7 @@ class HbmProblem final : public continuation::Problem {
   int blocks_;
   std::vector<continuation::Parameter> parameters_;
   double displacement_;
-  std::shared_ptr<Workers> workers_;
+  std::shared_ptr<control::Workers> workers_;
 };
 
 /// Default values of the parameters, at one excitation frequency (rad/s).
@@ -143,8 +143,8 @@ std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, 
 /// in a factor of the element forces, as for a stop without a gap, which has a kink at rest: from the
 /// structure without elements or, where that has no response, with springs in place of them, as for a mass
 /// between two stops; and Newton's method from motions at random, the same in each run. Empty if that fails,
-/// too, or if go_on, called meanwhile, returns false.
+/// too, or if `control` ends meanwhile.
 std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
-                                   const std::function<bool()>& go_on = {});
+                                   const control::Control& control = {});
 
 }  // namespace arcslip::hbm

@@ -1,6 +1,7 @@
 #include <arcslip/model/model.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/model/placed_matrices.hpp>
 #include <arcslip/scene/patch.hpp>
 #include <arcslip/scene/rotation.hpp>
@@ -27,8 +28,8 @@ Excitation::Kind kind_of(const scene::Part& part) {
 
 class Builder {
  public:
-  Builder(const scene::Scene& scene, const scene::StopRequest& stop) : scene_(scene) {
-    set_dofs(stop);
+  Builder(const scene::Scene& scene, const control::Control& control) : scene_(scene) {
+    set_dofs(control);
     if (scene.cyclic) {
       const int count = scene.cyclic->sectors, order = scene.cyclic->engine_order % count;
       model_.sector = Sector{count, order < 0 ? order + count : order};
@@ -80,9 +81,9 @@ class Builder {
 
  private:
   // Those of the scene, or of its matrices and what stands next to them.
-  void set_dofs(const scene::StopRequest& stop) {
+  void set_dofs(const control::Control& control) {
     if (scene_.matrices) {
-      PlacedMatrices placed = place_matrices(scene_, stop);
+      PlacedMatrices placed = place_matrices(scene_, control);
       model_.dof_names = std::move(placed.dof_names);
       model_.unnamed_from = placed.unnamed_from;
       model_.unnamed_to = placed.unnamed_to;
@@ -248,8 +249,8 @@ class Builder {
 
 }  // namespace
 
-Model build(const scene::Scene& scene, const scene::StopRequest& stop) {
-  return Builder(scene, stop).build();
+Model build(const scene::Scene& scene, const control::Control& control) {
+  return Builder(scene, control).build();
 }
 
 }  // namespace arcslip::model

@@ -39,7 +39,7 @@ std::shared_ptr<const Reduced> CopiesOfStructure::reduced(double factor) const {
   auto [purpose_of, key] = purpose(all);
   if (factor != 1) key += fingerprint("of stiffness ", &factor, 1);
   return files_.derived->get<Reduced>(
-      key, [&] { return structure::reduce(with_stiffness(files_, factor), rows_, purpose_of, stop_); });
+      key, [&] { return structure::reduce(with_stiffness(files_, factor), rows_, purpose_of, control_); });
 }
 
 std::shared_ptr<const Reduced> CopiesOfStructure::whole(double factor) const {

@@ -1,5 +1,6 @@
 #include <arcslip/model/matrix_placement.hpp>
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/patch.hpp>
 #include <arcslip/scene/rotation.hpp>
 #include <arcslip/scene/shape.hpp>
@@ -39,12 +40,12 @@ std::string ring_key(const scene::Matrices& sector) {
                      static_cast<Eigen::Index>(factors.size()));
 }
 
-Placer::Placer(const scene::Scene& scene, const scene::Matrices& files, const scene::StopRequest& stop)
+Placer::Placer(const scene::Scene& scene, const scene::Matrices& files, const control::Control& control)
     : scene_(scene),
       files_(files),
       reduces_(files_.highest_frequency > 0),
       copies_(files_.copies),
-      stop_(stop) {}
+      control_(control) {}
 
 PlacedMatrices Placer::place() {
   choose_rows();

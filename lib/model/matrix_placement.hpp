@@ -2,6 +2,7 @@
 // The rows, loads and names of the matrices of a scene in its model, whatever they are reduced to: private to
 // placed_matrices.hpp.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/model/placed_matrices.hpp>
 #include <arcslip/structure/wave.hpp>
 
@@ -18,7 +19,7 @@ using structure::Reduced, structure::WaveStructure;
 class Placer {
  public:
   /// files: the matrices of the scene, or where their copies share rows those of the closed ring.
-  Placer(const scene::Scene& scene, const scene::Matrices& files, const scene::StopRequest& stop);
+  Placer(const scene::Scene& scene, const scene::Matrices& files, const control::Control& control);
   virtual ~Placer() = default;
   PlacedMatrices place();
 
@@ -54,7 +55,7 @@ class Placer {
   const scene::Matrices& files_;
   const bool reduces_;
   const int copies_;
-  const scene::StopRequest& stop_;
+  const control::Control& control_;
   Index kept_ = 0;
   std::vector<int> rows_;             // of the matrices: those kept, and of whole matrices all others
   std::vector<Load> loads_;           // different ones

@@ -4,7 +4,7 @@
 // model; the model keeps the defaults.
 
 #include <arcslip/continuation/problem/problem.hpp>
-#include <arcslip/control/stop_request.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/laws/law.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -210,13 +210,13 @@ struct Model {
   int threads = 1;                     // of the scene
   /// Asked within evaluations that take long, those with factors of large matrices: an evaluation that is
   /// stopped fails.
-  scene::StopRequest stop{};
+  control::Control control{};
 };
 
 /// From a validated scene. The matrices of a large structure are reduced to the rows that the scene uses
 /// (structure/reduction.hpp), once for all copies of the scene. Throws structure::ReductionError and
-/// scene::Interrupted.
-Model build(const scene::Scene& scene, const scene::StopRequest& stop = {});
+/// control::Interrupted.
+Model build(const scene::Scene& scene, const control::Control& control = {});
 
 /// Index of a parameter; a tied field leads to its tie. Throws scene::ParameterError.
 int parameter_index(const Model& model, const std::string& name);

@@ -3,6 +3,7 @@
 // those that the scene uses; then what describes the others, rows or coordinates; then the degrees of freedom
 // next to the matrices. Of several copies the rows of all stand first, then the coordinates of all.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/model/model.hpp>
 
 #include <cstddef>
@@ -33,7 +34,7 @@ struct PlacedMatrices {
 };
 
 /// One copy is reduced for the rows that the scene uses of any, once for each factor of the stiffness. Throws
-/// structure::ReductionError, also where the copies together are too many, and scene::Interrupted.
-PlacedMatrices place_matrices(const scene::Scene& scene, const scene::StopRequest& stop);
+/// structure::ReductionError, also where the copies together are too many, and control::Interrupted.
+PlacedMatrices place_matrices(const scene::Scene& scene, const control::Control& control);
 
 }  // namespace arcslip::model

@@ -1,5 +1,6 @@
 #include <arcslip/model/reduced_scene.hpp>
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/model/placed_matrices.hpp>
 #include <arcslip/results/text.hpp>
@@ -175,11 +176,11 @@ class ReducedFiles {
 }  // namespace
 
 ReducedScene reduced_scene(const scene::Scene& scene, const std::string& folder,
-                           const scene::StopRequest& stop) {
+                           const control::Control& control) {
   check_reduced(scene);
   scene::Scene undamped = scene;  // of the damping that the scene adds
   undamped.damping.clear();
-  const Model model = build(undamped, stop);
+  const Model model = build(undamped, control);
   scene::Scene copy = scene::from_folder(scene, folder);
   ReducedFiles files(model, scene);
   files.add_matrices(*scene.matrices, *copy.matrices);

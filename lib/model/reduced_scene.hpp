@@ -2,6 +2,7 @@
 // The reduced structure of a scene as files: the matrices of structure/reduction.hpp in Matrix Market format,
 // the names of their rows, the loads of shapes, and the scene with these in place of its own.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <stdexcept>
@@ -23,8 +24,8 @@ class NotReduced : public std::runtime_error {
 
 /// folder: of the new scene and its files, to which the paths of other files become relative. Throws
 /// NotReduced where the matrices are not reduced or where the ground moves under all rows,
-/// structure::ReductionError and scene::Interrupted.
+/// structure::ReductionError and control::Interrupted.
 ReducedScene reduced_scene(const scene::Scene& scene, const std::string& folder,
-                           const scene::StopRequest& stop = {});
+                           const control::Control& control = {});
 
 }  // namespace arcslip::model

@@ -1,5 +1,6 @@
 #include <arcslip/model/reduction_report.hpp>
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/structure/reduction.hpp>
 
@@ -17,10 +18,10 @@ double to_two_digits(double value) {
 
 }  // namespace
 
-std::optional<model::Reduction> reduction(const scene::Scene& scene, const scene::StopRequest& stop) {
+std::optional<model::Reduction> reduction(const scene::Scene& scene, const control::Control& control) {
   if (!scene.matrices || scene.matrices->highest_frequency == 0) return {};
   try {
-    auto found = model::build(scene, stop).reduction;
+    auto found = model::build(scene, control).reduction;
     found->error = to_two_digits(found->error);
     return found;
   } catch (const structure::ReductionError& error) {
@@ -32,8 +33,8 @@ std::optional<model::Reduction> reduction(const scene::Scene& scene, const scene
   }
 }
 
-std::string prepare(const scene::Scene& scene, const scene::StopRequest& stop) {
-  const auto done = reduction(scene, stop);
+std::string prepare(const scene::Scene& scene, const control::Control& control) {
+  const auto done = reduction(scene, control);
   if (!done) return {};
   // A closed ring is reduced as one.
   const int copies = scene.matrices->faces.empty() ? scene.matrices->copies : 1;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -11,9 +12,9 @@ namespace arcslip::observables {
 /// How the matrices of a scene are reduced, its error to two digits; empty: they are not. The first call
 /// reduces them, for all studies of the scene. Throws SceneError for matrices that cannot be reduced, and
 /// Interrupted.
-std::optional<model::Reduction> reduction(const scene::Scene& scene, const scene::StopRequest& stop = {});
+std::optional<model::Reduction> reduction(const scene::Scene& scene, const control::Control& control = {});
 
 /// reduction() as a sentence, or "".
-std::string prepare(const scene::Scene& scene, const scene::StopRequest& stop);
+std::string prepare(const scene::Scene& scene, const control::Control& control);
 
 }  // namespace arcslip::observables

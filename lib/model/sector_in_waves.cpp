@@ -48,7 +48,7 @@ std::shared_ptr<const WaveStructure> SectorInWaves::wave(const structure::Wave& 
     return std::make_shared<const WaveStructure>(structure::whole_wave(files_, in, rows_, purpose_of.loads));
   return files_.derived->get<WaveStructure>(
       key + "in the wave " + std::to_string(in.diameter) + "/" + std::to_string(in.count),
-      [&] { return structure::reduce_wave(files_, in, rows_, purpose_of, stop_); });
+      [&] { return structure::reduce_wave(files_, in, rows_, purpose_of, control_); });
 }
 
 // Coordinates that a wave has not are next to it, with a stiffness of their own.

@@ -103,7 +103,7 @@ struct AtomicFile::Target {
   std::string temporary;   // its present name; empty: it has none
   int descriptor = -1;
   bool owns_descriptor = true;
-  scene::StopRequest stop{};
+  control::Control control{};
   std::optional<detail::DescriptorBuffer> buffer;
   std::optional<std::ostream> stream;
 
@@ -121,7 +121,7 @@ void AtomicFile::Target::open() {
   if (!exists && errno != ENOENT) fail(path, errno);
   if (path.back() == '/' || (exists && S_ISDIR(old.st_mode))) fail(path, EISDIR);
   if (exists && !S_ISREG(old.st_mode)) {
-    descriptor = detail::open_special(path, stop);
+    descriptor = detail::open_special(path, control);
     return;
   }
   if (exists && ::access(path.c_str(), W_OK) != 0) fail(path, errno);
@@ -155,7 +155,7 @@ void AtomicFile::Target::open_temporary(mode_t mode) {
 }
 
 void AtomicFile::Target::start_stream() {
-  buffer.emplace(descriptor, path, stop);
+  buffer.emplace(descriptor, path, control);
   stream.emplace(&*buffer);
   stream->exceptions(std::ios::badbit | std::ios::failbit);  // WriteError passes through
 }
@@ -198,17 +198,17 @@ AtomicFile::AtomicFile(AtomicFile&&) noexcept = default;
 AtomicFile& AtomicFile::operator=(AtomicFile&&) noexcept = default;
 AtomicFile::~AtomicFile() = default;
 
-AtomicFile::AtomicFile(const std::string& path, scene::StopRequest stop)
+AtomicFile::AtomicFile(const std::string& path, control::Control control)
     : target_(std::make_unique<Target>()) {
   target_->path = path;
-  target_->stop = std::move(stop);
+  target_->control = std::move(control);
   target_->open();
   target_->start_stream();
 }
 
-AtomicFile AtomicFile::standard_stream(int descriptor, const char* name, scene::StopRequest stop) {
+AtomicFile AtomicFile::standard_stream(int descriptor, const char* name, control::Control control) {
   auto target = std::make_unique<Target>();
-  target->stop = std::move(stop);
+  target->control = std::move(control);
   target->path = name;
   target->descriptor = descriptor;
   target->owns_descriptor = false;
@@ -216,12 +216,12 @@ AtomicFile AtomicFile::standard_stream(int descriptor, const char* name, scene::
   return AtomicFile(std::move(target));
 }
 
-AtomicFile AtomicFile::standard_output(scene::StopRequest stop) {
-  return standard_stream(STDOUT_FILENO, "standard output", std::move(stop));
+AtomicFile AtomicFile::standard_output(control::Control control) {
+  return standard_stream(STDOUT_FILENO, "standard output", std::move(control));
 }
 
-AtomicFile AtomicFile::standard_error(scene::StopRequest stop) {
-  return standard_stream(STDERR_FILENO, "standard error", std::move(stop));
+AtomicFile AtomicFile::standard_error(control::Control control) {
+  return standard_stream(STDERR_FILENO, "standard error", std::move(control));
 }
 
 std::ostream& AtomicFile::stream() {
@@ -233,8 +233,8 @@ void AtomicFile::commit() {
 }
 
 void write_file(const std::string& path, const std::function<void(std::ostream&)>& writer,
-                const scene::StopRequest& stop) {
-  AtomicFile file(path, stop);
+                const control::Control& control) {
+  AtomicFile file(path, control);
   writer(file.stream());
   file.commit();
 }

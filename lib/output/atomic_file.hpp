@@ -1,7 +1,7 @@
 #pragma once
 // Files that appear under their name only when complete.
 
-#include <arcslip/control/stop_request.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <functional>
 #include <memory>
@@ -26,14 +26,14 @@ class WriteError : public std::runtime_error {
 /// existing file. If destroyed before that, nothing remains and an old file of this name is untouched; on
 /// systems with unnamed files (Linux), this holds even if the program is killed. Links are followed, even if
 /// dangling. What is not a regular file (a device, a pipe) is opened once and written to directly, and may
-/// block on its reader: if `stop` is requested and nothing is read for a second, it fails with EINTR. Every
+/// block on its reader: if `control` ends and nothing is read for a second, it fails with EINTR. Every
 /// failure throws WriteError, also through stream().
 class AtomicFile {
  public:
-  explicit AtomicFile(const std::string& path, scene::StopRequest stop = {});
+  explicit AtomicFile(const std::string& path, control::Control control = {});
   /// Standard output and standard error, with the same error handling.
-  static AtomicFile standard_output(scene::StopRequest stop = {});
-  static AtomicFile standard_error(scene::StopRequest stop = {});
+  static AtomicFile standard_output(control::Control control = {});
+  static AtomicFile standard_error(control::Control control = {});
   AtomicFile(AtomicFile&&) noexcept;
   AtomicFile& operator=(AtomicFile&&) noexcept;
   ~AtomicFile();
@@ -44,13 +44,13 @@ class AtomicFile {
  private:
   struct Target;
   explicit AtomicFile(std::unique_ptr<Target> target);
-  static AtomicFile standard_stream(int descriptor, const char* name, scene::StopRequest stop);
+  static AtomicFile standard_stream(int descriptor, const char* name, control::Control control);
   std::unique_ptr<Target> target_;
 };
 
 /// Writes the output of `writer` to a file, completely or not at all. Throws WriteError.
 void write_file(const std::string& path, const std::function<void(std::ostream&)>& writer,
-                const scene::StopRequest& stop = {});
+                const control::Control& control = {});
 
 /// Throws the WriteError that opening `path` for writing would cause (no such folder, no permission). Leaves
 /// no trace, and opens nothing that has a reader.

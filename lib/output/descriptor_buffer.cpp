@@ -27,17 +27,17 @@ bool may_wait(int descriptor) {
 
 }  // namespace
 
-Patience::Patience(scene::StopRequest stop) : stop_(std::move(stop)) {}
+Patience::Patience(control::Control control) : control_(std::move(control)) {}
 
 bool Patience::is_at_end() {
   const auto now = std::chrono::steady_clock::now();
-  if (!scene::is_asked(stop_)) return false;
+  if (control_.keep_going()) return false;
   if (!std::exchange(asked_, true)) since_ = now;
   return now - since_ > longest_wait;
 }
 
-int open_special(const std::string& path, const scene::StopRequest& stop) {
-  Patience patience(stop);
+int open_special(const std::string& path, const control::Control& control) {
+  Patience patience(control);
   while (true) {
     const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
     if (descriptor >= 0) return descriptor;
@@ -50,11 +50,11 @@ int open_special(const std::string& path, const scene::StopRequest& stop) {
   }
 }
 
-DescriptorBuffer::DescriptorBuffer(int descriptor, std::string path, scene::StopRequest stop)
+DescriptorBuffer::DescriptorBuffer(int descriptor, std::string path, control::Control control)
     : descriptor_(descriptor),
       waits_(may_wait(descriptor)),
       path_(std::move(path)),
-      patience_(std::move(stop)) {
+      patience_(std::move(control)) {
   setp(buffer_.data(), buffer_.data() + buffer_.size());
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Writing to a file descriptor that may block on a reader.
 
-#include <arcslip/control/stop_request.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <array>
 #include <chrono>
@@ -13,24 +13,24 @@ namespace arcslip::output::detail {
 /// Waits for the reader: without limit, but at most a second without progress once a stop is requested.
 class Patience {
  public:
-  explicit Patience(scene::StopRequest stop);
+  explicit Patience(control::Control control);
   bool is_at_end();
   void progress() { asked_ = false; }
 
  private:
-  scene::StopRequest stop_;
+  control::Control control_;
   bool asked_ = false;
   std::chrono::steady_clock::time_point since_{};
 };
 
 /// Opens an existing special file, once; a pipe waits for its reader. Throws WriteError.
-int open_special(const std::string& path, const scene::StopRequest& stop);
+int open_special(const std::string& path, const control::Control& control);
 
 /// A stream buffer that writes to a file descriptor, or throws WriteError with this path.
 class DescriptorBuffer : public std::streambuf {
  public:
   /// stop: called while the descriptor blocks.
-  DescriptorBuffer(int descriptor, std::string path, scene::StopRequest stop);
+  DescriptorBuffer(int descriptor, std::string path, control::Control control);
 
  protected:
   int_type overflow(int_type character) override;

@@ -104,7 +104,7 @@ std::vector<std::string> figure_files(const FigureData& data, const std::string&
 }
 
 Figures draw_figures(const FigureData& data, const std::string& folder, const std::string& name,
-                     const scene::StopRequest& stop) {
+                     const control::Control& control) {
   const std::string stem = file_name(name);
   const std::string base = folder_prefix(folder);
   const std::vector<std::string> images = images_of(data, stem);
@@ -121,7 +121,7 @@ Figures draw_figures(const FigureData& data, const std::string& folder, const st
       "interrupted before the figures were drawn; the data and the script were "
       "written: run gnuplot -d " +
       stem + ".gp in " + folder;
-  if (scene::is_asked(stop)) {
+  if (!control.keep_going()) {
     result.problem = interrupted;
     return result;
   }
@@ -130,7 +130,7 @@ Figures draw_figures(const FigureData& data, const std::string& folder, const st
   const std::string suffix = temporary_suffix();
   const auto time = time_for(data, images.size());
   const ProcessResult run =
-      run_program("gnuplot", {"-d", "-e", "suffix='" + suffix + "'", stem + ".gp"}, folder, {stop, time});
+      run_program("gnuplot", {"-d", "-e", "suffix='" + suffix + "'", stem + ".gp"}, folder, {control, time});
   bool all_whole = run.end == ProcessEnd::by_itself && run.exit_code == 0;
   for (const std::string& image : images) {
     for (const auto& [extension, ending] : {std::pair{".svg", "</svg>"}, std::pair{".png", "IEND"}}) {

@@ -14,10 +14,10 @@ constexpr std::size_t most_text = 1u << 20;  // bytes of it that are kept
 
 ProcessResult run_program(const std::string& program, const std::vector<std::string>& arguments,
                           const std::string& folder, const ProcessLimits& limits) {
-  using scene::detail::ChildOutput;
+  using control::ChildOutput;
   ProcessResult result;
   try {
-    ChildOutput child({program, arguments, {}, folder, true}, {limits.time, limits.stop});
+    ChildOutput child({program, arguments, {}, folder, true}, {limits.time, limits.control});
     while (child.read_some(result.text))
       if (result.text.size() > most_text) result.text.resize(most_text);
     result.end = child.end() == ChildOutput::End::out_of_time ? ProcessEnd::out_of_time

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <arcslip/control/stop_request.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <chrono>
 #include <string>
@@ -26,7 +26,7 @@ struct ProcessResult {
 
 /// Limits of a program.
 struct ProcessLimits {
-  scene::StopRequest stop{};
+  control::Control control{};
   std::chrono::milliseconds time = std::chrono::hours(24 * 365);
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 // Files named by a scene: tables, matrices. They are read with the scene, and its hash covers their content.
 
-#include <arcslip/control/stop_request.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/sparse_matrix.hpp>
 
 #include <memory>
@@ -33,7 +33,7 @@ namespace file {
 /// Context for reading named files. A file that a scene names several times is read once.
 struct FileSource {
   Folder folder{};
-  StopRequest stop{};
+  control::Control control{};
   mutable std::vector<NamedFile> read{};  // already
   // The matrices in texts that have been read, with the names of their variables.
   struct Known {

@@ -1,7 +1,7 @@
 #pragma once
 // A scene, validated and resolved, as plain data in the user's units.
 
-#include <arcslip/control/stop_request.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/field.hpp>
 #include <arcslip/scene/matrices.hpp>
 #include <arcslip/scene/named_file.hpp>

@@ -1,5 +1,6 @@
 #include <arcslip/stability/floquet.hpp>
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/stability/piecewise_linear_monodromy.hpp>
 #include <arcslip/stability/varying_coefficients.hpp>
 #include <arcslip/time/event_driven/taylor_propagator.hpp>
@@ -108,7 +109,7 @@ struct Floquet::Impl {
   }
 
   bool compute(double base_frequency, const elements::Harmonics& harmonics,
-               const std::vector<ElementCourse>& elements, const GoOn& go_on) {
+               const std::vector<ElementCourse>& elements, const control::Control& control) {
     omega = base_frequency;
     span = harmonics.span();
     if (!varying.follow(omega, fastest_mode, harmonics, elements) || !follow(harmonics, elements))
@@ -121,7 +122,7 @@ struct Floquet::Impl {
     std::size_t next = 0;
     double theta = 0;
     while (true) {
-      if (go_on && !go_on()) return false;
+      if (!control.keep_going()) return false;
       const double end = next < changes.size() ? changes[next].theta : span;
       const bool moved = phases ? phases->move((end - theta) / omega) : move_varying(theta, end);
       if (!moved) return false;
@@ -421,8 +422,8 @@ bool Floquet::has_matrices_of(const EquationOfMotion& equation) const {
 }
 
 bool Floquet::compute(double omega, const elements::Harmonics& harmonics,
-                      const std::vector<ElementCourse>& elements, const GoOn& go_on) {
-  return impl_->compute(omega, harmonics, elements, go_on);
+                      const std::vector<ElementCourse>& elements, const control::Control& control) {
+  return impl_->compute(omega, harmonics, elements, control);
 }
 
 int Floquet::modes() const {

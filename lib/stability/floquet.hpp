@@ -26,19 +26,17 @@
 // exact for piecewise linear structures else. Source: docs/theory/09-event-driven.md.
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/stability/contact_states_along.hpp>
 #include <arcslip/time/equation/equation_of_motion.hpp>
 #include <arcslip/time/equation/natural_modes.hpp>
 
 #include <complex>
-#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 
 namespace arcslip::time {
-
-using GoOn = std::function<bool()>;
 
 /// A law with a memory that is neither piecewise linear nor hysteretic (laws/hysteresis.hpp).
 class NoVariation : public std::runtime_error {
@@ -72,9 +70,9 @@ class Floquet {
   bool has_matrices_of(const EquationOfMotion& equation) const;
 
   /// omega: base frequency, rad/s; elements: as in the equation. False: there are none, as where the motion
-  /// is not finite or a contact chatters, or go_on returned false.
+  /// is not finite or a contact chatters, or `control` has ended.
   bool compute(double omega, const elements::Harmonics& harmonics, const std::vector<ElementCourse>& elements,
-               const GoOn& go_on = {});
+               const control::Control& control = {});
 
   /// The modes that move with inertia.
   int modes() const;

@@ -1,5 +1,6 @@
 #include <arcslip/stability/hill.hpp>
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/time/event_driven/event_driven.hpp>
 #include <arcslip/time/event_driven/taylor_propagator.hpp>
 
@@ -57,7 +58,7 @@ struct Hill::Impl {
   }
 
   bool compute(double base_frequency, const elements::Harmonics& harmonics,
-               const std::vector<ElementCourse>& elements, const GoOn& go_on) {
+               const std::vector<ElementCourse>& elements, const control::Control& control) {
     omega = base_frequency;
     const bool smooth =
         std::all_of(laws.begin(), laws.end(), [](const HillLaw& law) { return law.automata.empty(); });
@@ -79,7 +80,7 @@ struct Hill::Impl {
         for (const auto& each : law.B) damping += 2 * size * each.norm();
       }
       const double rate = order + (fastest_mode + std::sqrt(stiffness) + damping) / omega;
-      if (!(rate < most_rates) || !follow(harmonics.span(), rate, go_on)) return false;
+      if (!(rate < most_rates) || !follow(harmonics.span(), rate, control)) return false;
       if (!smooth || last_orders() <= small_tail) return finish(harmonics.odd);
     }
     return false;
@@ -159,7 +160,7 @@ struct Hill::Impl {
   }
 
   // z_k of (w, w') for k >= 0, as z_(-k) is its conjugate: a row for each start.
-  bool follow(double span, double rate, const GoOn& go_on) {
+  bool follow(double span, double rate, const control::Control& control) {
     const Eigen::Index n = equation.dofs();
     const auto count = static_cast<std::size_t>(order + 1);
     w.assign(count, ComplexMatrix::Zero(2 * n, n));
@@ -169,7 +170,7 @@ struct Hill::Impl {
     const int steps = static_cast<int>(std::ceil(span * rate / longest_in_series));
     const double h = span / steps;
     for (int step = 0; step < steps; ++step) {
-      if (go_on && !go_on()) return false;
+      if (!control.keep_going()) return false;
       term_w = w;
       term_v = v;
       double size = 0;
@@ -280,8 +281,8 @@ Hill::Hill(Hill&&) noexcept = default;
 Hill& Hill::operator=(Hill&&) noexcept = default;
 
 bool Hill::compute(double omega, const elements::Harmonics& harmonics,
-                   const std::vector<ElementCourse>& elements, const GoOn& go_on) {
-  return impl_->compute(omega, harmonics, elements, go_on);
+                   const std::vector<ElementCourse>& elements, const control::Control& control) {
+  return impl_->compute(omega, harmonics, elements, control);
 }
 
 const std::vector<Complex>& Hill::multipliers() const {

@@ -18,6 +18,7 @@
 // memory makes the spectrum fragment (Schuetz, Bayer & Leine 2026): such laws are refused. Source: Bayer &
 // Leine (2023), Nonlinear Dynamics 111.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/stability/floquet.hpp>
 
 namespace arcslip::time {
@@ -32,7 +33,7 @@ class Hill {
 
   /// As of Floquet.
   bool compute(double omega, const elements::Harmonics& harmonics, const std::vector<ElementCourse>& elements,
-               const GoOn& go_on = {});
+               const control::Control& control = {});
   const std::vector<std::complex<double>>& multipliers() const;
   const std::vector<std::complex<double>>& half_multipliers() const;
   /// Of (w, dw/dtheta), from theta = 0.

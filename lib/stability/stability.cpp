@@ -95,8 +95,8 @@ void StabilityAnalysis::go_to_large(const model::Model& model, const time::Equat
     floquet_->move_to(equation);
     coarse_->move_to(equation);
   } else {
-    const bool stopped = model.stop && model.stop();
-    const auto modes = stopped ? nullptr : time::natural_modes(equation, model.stop);
+    const bool stopped = !model.control.keep_going();
+    const auto modes = stopped ? nullptr : time::natural_modes(equation, model.control);
     if (!modes) throw time::NoVariation("their computation was stopped");
     floquet_.emplace(equation, time::ModesKept{.most = modes_kept}, modes);
     coarse_.emplace(equation, time::ModesKept{.most = modes_kept / 2}, modes);

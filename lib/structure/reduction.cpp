@@ -39,8 +39,8 @@ constexpr double almost = 0.1;       // the same: from here on rounding counts
 
 constexpr const char* interrupted = "interrupted while the structure was reduced";
 
-void listen(const scene::StopRequest& stop) {
-  if (scene::is_asked(stop)) throw scene::Interrupted(interrupted);
+void listen(const control::Control& control) {
+  if (!control.keep_going()) throw control::Interrupted(interrupted);
 }
 
 // OpenBLAS takes 128 MB at its first use, and asks for them without an end where there are none.
@@ -94,14 +94,14 @@ scene::Matrices at_speed(scene::Matrices matrices, double square) {
 class Reduction {
  public:
   Reduction(const scene::Matrices& matrices, const std::vector<int>& kept, const Purpose& purpose, Index most,
-            const scene::StopRequest& stop)
+            const control::Control& control)
       : square_(0.5 * purpose.highest_speed * purpose.highest_speed),
         matrices_(at_speed(symmetric_parts(matrices), square_)),
         skew_(skew_parts(matrices)),
         highest_(purpose.highest),
         most_(most),
         sigma_(std::pow(shift_at * highest_, 2)),
-        stop_(stop),
+        control_(control),
         parts_(partition_of(matrices_, skew_, kept)),
         M_(blocks(*matrices_.mass.matrix, parts_)),
         K_(blocks(*matrices_.stiffness.matrix, parts_)) {
@@ -155,7 +155,7 @@ class Reduction {
 
  private:
   void factorize() {
-    listen(stop_);
+    listen(control_);
     A_.cholmod().print = 0;
     // Minimum degree alone: METIS, which CHOLMOD also tries, takes SIGTERM for itself meanwhile.
     A_.cholmod().nmethods = 1;
@@ -165,7 +165,7 @@ class Reduction {
     if (!Eigen::Map<const VectorXd>(A.valuePtr(), A.nonZeros()).allFinite()) refuse_overflow();
     require_memory_of_blas();
     A_.compute(A);
-    listen(stop_);
+    listen(control_);
     if (A_.info() == Eigen::Success) return;
     std::string where;
     if (const auto column = A_.failed_at())
@@ -369,9 +369,9 @@ class Reduction {
   // Appends to V what A^-1 right has next to it, in the norm of A. A V is kept: A times what is solved for is
   // right itself, so that nothing cancels.
   void append(MatrixXd right, Index most) {
-    listen(stop_);
+    listen(control_);
     MatrixXd W = A_.solve(right);
-    listen(stop_);
+    listen(control_);
     if (!W.allFinite()) refuse_overflow();
     const VectorXd size = (W.array() * right.array()).colwise().sum().max(0.0).sqrt();
     const auto take_out = [](const auto& V, const auto& AV, auto&& w, auto&& Aw) {
@@ -509,7 +509,7 @@ class Reduction {
   const double highest_;
   const Index most_;
   const double sigma_;
-  const scene::StopRequest& stop_;
+  const control::Control& control_;
   const Partition parts_;
   const Blocks M_, K_;
   std::optional<Blocks> C_, K2_;
@@ -525,17 +525,17 @@ class Reduction {
 }  // namespace
 
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, const Purpose& purpose,
-               const scene::StopRequest& stop, int most) {
-  return scene::interruptible(
-      [=](const scene::StopRequest& given_up) {
+               const control::Control& control, int most) {
+  return control::interruptible(
+      [=](const control::Control& given_up) {
         return Reduction(matrices, kept, purpose, most, given_up).run();
       },
-      stop, interrupted);
+      control, interrupted);
 }
 
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, double highest,
-               const scene::StopRequest& stop, int most) {
-  return reduce(matrices, kept, Purpose{highest, 0, {}}, stop, most);
+               const control::Control& control, int most) {
+  return reduce(matrices, kept, Purpose{highest, 0, {}}, control, most);
 }
 
 }  // namespace arcslip::structure

@@ -32,7 +32,7 @@
 // with fixed-interface modes in place of V; moments: E. J. Grimme, Krylov projection methods for model
 // reduction, PhD thesis, Univ. of Illinois (1997).
 
-#include <arcslip/control/stop_request.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/matrices.hpp>
 
 #include <Eigen/Core>
@@ -73,10 +73,10 @@ struct Purpose {
 };
 
 /// kept: rows of the matrices, from 0. most: vectors of V. Throws ReductionError, where K + sigma M is not
-/// positive definite, numbers overflow, or the error stays above 1e-3, and scene::Interrupted.
+/// positive definite, numbers overflow, or the error stays above 1e-3, and control::Interrupted.
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, const Purpose& purpose,
-               const scene::StopRequest& stop = {}, int most = 1500);
+               const control::Control& control = {}, int most = 1500);
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, double highest,
-               const scene::StopRequest& stop = {}, int most = 1500);
+               const control::Control& control = {}, int most = 1500);
 
 }  // namespace arcslip::structure

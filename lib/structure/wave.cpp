@@ -92,7 +92,7 @@ MatrixXcd half_of_both(const MatrixXd& A, Index b) {
 }  // namespace
 
 WaveStructure reduce_wave(const scene::Matrices& sector, const Wave& wave, const std::vector<int>& kept,
-                          const Purpose& purpose, const scene::StopRequest& stop) {
+                          const Purpose& purpose, const control::Control& control) {
   const InWave in(sector, wave);
   const auto b = static_cast<Index>(kept.size());
   std::vector<int> twice;
@@ -102,7 +102,7 @@ WaveStructure reduce_wave(const scene::Matrices& sector, const Wave& wave, const
   const MatrixXcd loads = in.loads(purpose.loads);
   Purpose of_both{purpose.highest, purpose.highest_speed, MatrixXd(2 * in.size(), 2 * loads.cols())};
   of_both.loads << loads.real(), loads.imag(), loads.imag(), -loads.real();
-  const Reduced reduced = reduce(doubled(sector, in), twice, of_both, stop);
+  const Reduced reduced = reduce(doubled(sector, in), twice, of_both, control);
   WaveStructure half_of;
   half_of.M = half_of_both(reduced.M, b);
   half_of.C = half_of_both(reduced.C, b);

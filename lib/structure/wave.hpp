@@ -12,7 +12,7 @@
 //
 // D. L. Thomas, Dynamics of rotationally periodic structures, Int. J. Numer. Meth. Eng. 14 (1979) 81.
 
-#include <arcslip/control/stop_request.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/structure/faces.hpp>
 #include <arcslip/structure/reduction.hpp>
 
@@ -30,7 +30,7 @@ struct WaveStructure {
 
 /// kept: rows of the matrices from 0, none beyond. Throws as reduce() does.
 WaveStructure reduce_wave(const scene::Matrices& sector, const Wave& wave, const std::vector<int>& kept,
-                          const Purpose& purpose, const scene::StopRequest& stop = {});
+                          const Purpose& purpose, const control::Control& control = {});
 /// All rows but those beyond, in this order. loads: on all rows, a column each.
 WaveStructure whole_wave(const scene::Matrices& sector, const Wave& wave, const std::vector<int>& rows,
                          const Eigen::MatrixXd& loads);

@@ -1,5 +1,6 @@
 // The study "accuracy": time and error of the ways to compute a frequency response.
 #include <arcslip/analyses/modes_and_time/accuracy.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/catalogue.hpp>
@@ -154,8 +155,8 @@ std::unique_ptr<Computation> computed_accuracy(const scene::Scene& scene, const 
                                                const RunOptions& options) {
   return std::make_unique<ComputationOf<Accuracy>>(
       described_accuracy(scene, settings, options),
-      [&settings](const Case& at, const results::ProgressCallback& progress) {
-        return std::vector{observables::accuracy(at.scene, settings, progress)};
+      [&settings](const Case& at, const control::Control& control) {
+        return std::vector{observables::accuracy(at.scene, settings, control)};
       },
       [&scene](std::span<const Accuracy> all) { return accuracy_figures(scene, all); });
 }

@@ -46,7 +46,7 @@ bool has_harmonics(const Range& range) {
   return true;
 }
 
-/// follow(scene, range, progress) returns the branches of one combination, over the parameter range.over, or
+/// follow(scene, range, control) returns the branches of one combination, over the parameter range.over, or
 /// over the frequency if the Range has none. Responses get more harmonics only where they need them.
 template <auto follow, BranchKind drawn, class Range>
 std::unique_ptr<Computation> computed_branches(const scene::Scene& scene, const Range& range,
@@ -55,9 +55,7 @@ std::unique_ptr<Computation> computed_branches(const scene::Scene& scene, const 
   using Branches = std::span<const ResponseBranch>;
   auto of = std::make_unique<ComputationOf<ResponseBranch>>(
       branches(scene, asked_for(drawn, scene, range), options),
-      [&range](const Case& at, const results::ProgressCallback& progress) {
-        return follow(at.scene, range, progress);
-      },
+      [&range](const Case& at, const control::Control& control) { return follow(at.scene, range, control); },
       [&scene](Branches branches) { return std::vector{figures_of(scene, drawn, branches)}; });
   if (has_harmonics(range))
     of->truncation_of_items = [](Branches branches) {
@@ -65,10 +63,9 @@ std::unique_ptr<Computation> computed_branches(const scene::Scene& scene, const 
     };
   if constexpr (std::is_same_v<Range, observables::FrequencyRange> ||
                 std::is_same_v<Range, observables::ParameterRange>)
-    of->refine_items =
-        [&range](const Case& at, Branches coarse, double accuracy,
-                 const results::ProgressCallback& progress) -> std::optional<Refined<ResponseBranch>> {
-      auto refined = observables::refined_response(at.scene, range, coarse, accuracy, progress);
+    of->refine_items = [&range](const Case& at, Branches coarse, double accuracy,
+                                const control::Control& control) -> std::optional<Refined<ResponseBranch>> {
+      auto refined = observables::refined_response(at.scene, range, coarse, accuracy, control);
       if (!refined) return std::nullopt;
       return Refined<ResponseBranch>{std::move(refined->branches), refined->change};
     };

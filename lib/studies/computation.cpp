@@ -3,7 +3,6 @@
 #include <arcslip/control/ordered_parallel_for.hpp>
 #include <arcslip/studies/highest_harmonic.hpp>
 
-#include <atomic>
 #include <map>
 #include <mutex>
 #include <set>
@@ -16,18 +15,15 @@ namespace {
 /// The first combination that is being computed, and how far it is.
 class FirstOfSeveral {
  public:
-  FirstOfSeveral(std::size_t count, const results::ProgressCallback& progress)
-      : count_(count), progress_(progress) {}
+  FirstOfSeveral(std::size_t count, const control::Control& control) : count_(count), control_(control) {}
 
-  /// False: to end.
-  bool tell(std::size_t k, const results::Progress& now) {
+  void report(std::size_t k, const control::Progress& now) {
     const std::lock_guard lock(mutex_);
     last_[k] = now;
-    results::Progress& of_first = last_[first_];  // also before its own first report
+    control::Progress& of_first = last_[first_];  // also before its own first report
     of_first.branch = static_cast<int>(first_);
     of_first.branches = static_cast<int>(count_);
-    if (progress_ && !progress_(of_first)) goes_on = false;
-    return goes_on;
+    control_.report(of_first);
   }
 
   void end(std::size_t k) {
@@ -37,13 +33,11 @@ class FirstOfSeveral {
     while (ended_.erase(first_) == 1) ++first_;
   }
 
-  std::atomic<bool> goes_on = true;
-
  private:
   std::size_t count_;
-  const results::ProgressCallback& progress_;
+  const control::Control& control_;
   std::mutex mutex_;
-  std::map<std::size_t, results::Progress> last_;  // report of each that is not computed to its end
+  std::map<std::size_t, control::Progress> last_;  // report of each that is not computed to its end
   std::size_t first_ = 0;                          // of them; all before it are computed
   std::set<std::size_t> ended_;                    // after it
 };
@@ -55,27 +49,26 @@ struct Computed {
 };
 
 /// With rising orders until one has the accuracy.
-void compute_by_orders(const Computation& of, const Case& at, const results::ProgressCallback& progress,
+void compute_by_orders(const Computation& of, const Case& at, const control::Control& control,
                        Computed& found) {
   scene::Scene with = at.scene;
   OrderSelection& selection = found.selection.emplace(at.scene);
+  const auto report = [&](control::Progress now) {
+    now.order = with.harmonics.order;
+    control.report(now);
+  };
+  const control::Control of_order = control.child({.report = report});
   for (bool first = true;; first = false) {
     selection.set_order(with);
-    bool goes_on = true;
-    const auto tell = [&](results::Progress now) {
-      now.order = with.harmonics.order;
-      goes_on = !progress || progress(now);
-      return goes_on;
-    };
     const Case higher{with, at.alone};
     std::optional<RefinedItems> refined;
-    if (!first) refined = of.refine(higher, *found.items, at.scene.harmonics.accuracy, tell);
+    if (!first) refined = of.refine(higher, *found.items, at.scene.harmonics.accuracy, of_order);
     std::unique_ptr<Items> items;
     if (refined)
       items = std::move(refined->items);
-    else if (goes_on)
-      items = of.compute(higher, tell);
-    if (!goes_on && !first) {
+    else if (first || of_order.keep_going())
+      items = of.compute(higher, of_order);
+    if (!first && !of_order.keep_going()) {
       selection.give_up();
       return;
     }
@@ -87,63 +80,61 @@ void compute_by_orders(const Computation& of, const Case& at, const results::Pro
   }
 }
 
-Computed compute(const Computation& of, const Case& at, const results::ProgressCallback& progress) {
+Computed compute(const Computation& of, const Case& at, const control::Control& control) {
   Computed found{{}, {}, at.scene.harmonics};
   if (at.scene.harmonics.accuracy == 0) {
-    found.items = of.compute(at, progress);
+    found.items = of.compute(at, control);
   } else if (!of.has_truncation()) {
     scene::Scene with = at.scene;
     set_order_of_starts(with);
-    found.items = of.compute({with, at.alone}, progress);
+    found.items = of.compute({with, at.alone}, control);
   } else {
-    compute_by_orders(of, at, progress, found);
+    compute_by_orders(of, at, control, found);
   }
   return found;
 }
 
-using Compute = std::function<Computed(const Case& at, const results::ProgressCallback& progress)>;
+using Compute = std::function<Computed(const Case& at, const control::Control& control)>;
 /// Returns false where a result says that it was stopped.
 using Take = std::function<bool(Computed computed)>;
 
 void for_each_combination(const scene::Scene& scene, const scene::Combinations& all, int threads,
-                          const Compute& compute_one, const results::ProgressCallback& progress,
-                          const Take& take) {
-  FirstOfSeveral first(all.size(), progress);
+                          const Compute& compute_one, const control::Control& control, const Take& take) {
+  FirstOfSeveral first(all.size(), control);
+  const control::Control of_all = control.child();
   const auto make = [&](std::size_t k) {
     scene::Setting set = all[k];
     scene::Scene with = scene;
-    with.threads.count = threads_for_each(threads, all.size());
+    with.threads.count = control::threads_for_each(threads, all.size());
     for (const auto& [name, value] : set) scene::set(with, name, value);
-    Computed computed = compute_one({with, all.size() == 1},
-                                    [&](const results::Progress& now) { return first.tell(k, now); });
+    const auto report = [&, k](const control::Progress& now) { first.report(k, now); };
+    Computed computed = compute_one({with, all.size() == 1}, of_all.child({.report = report}));
     for (std::size_t i = 0; i < computed.items->size(); ++i) computed.items->put_set(i, set);
     first.end(k);
     return computed;
   };
   std::size_t taken = 0;
   bool whole = true;
-  in_order(all.size(), threads, first.goes_on, make, [&](Computed computed) {
+  control::in_order(all.size(), threads, of_all, make, [&](Computed computed) {
     ++taken;
     whole = take(std::move(computed));
   });
   // A stop that is heard at the last point of a combination leaves it complete: the next one then says that
   // it was stopped.
-  if (!first.goes_on && whole && taken < all.size()) take(make(taken));
+  if (whole && taken < all.size()) take(make(taken));
 }
 
 }  // namespace
 
 std::vector<std::unique_ptr<Items>> items_of_each(
     const scene::Scene& scene, const scene::Combinations& all,
-    const std::function<std::unique_ptr<Items>(const Case&, const results::ProgressCallback&)>& compute,
-    const results::ProgressCallback& progress) {
+    const std::function<std::unique_ptr<Items>(const Case&, const control::Control&)>& compute,
+    const control::Control& control) {
   std::vector<std::unique_ptr<Items>> items;
   for_each_combination(
       scene, all, 1,
-      [&](const Case& at, const results::ProgressCallback& tell) {
-        return Computed{compute(at, tell), {}, {}};
-      },
-      progress,
+      [&](const Case& at, const control::Control& of_case) { return Computed{compute(at, of_case), {}, {}}; },
+      control,
       [&](Computed computed) {
         items.push_back(std::move(computed.items));
         return false;
@@ -177,10 +168,8 @@ std::vector<results::FigureData> run_computation(const scene::Scene& scene, cons
   };
   for_each_combination(
       scene, scene::Combinations(study), options.threads,
-      [&](const Case& at, const results::ProgressCallback& progress) {
-        return compute(computation, at, progress);
-      },
-      options.progress, take);
+      [&](const Case& at, const control::Control& of_case) { return compute(computation, at, of_case); },
+      options.control, take);
   if (!options.figures || taken > scene::most_drawn) return {};
   return computation.figures(std::move(kept));
 }

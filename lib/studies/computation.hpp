@@ -1,6 +1,7 @@
 #pragma once
 // A study over the combinations of its for_each lists, and over the orders of the harmonics of each.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/figure.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/combinations.hpp>
@@ -45,7 +46,7 @@ class Computation {
  public:
   virtual ~Computation() = default;
   /// Of one combination. Several threads may call it at the same time.
-  virtual std::unique_ptr<Items> compute(const Case& at, const results::ProgressCallback& progress) const = 0;
+  virtual std::unique_ptr<Items> compute(const Case& at, const control::Control& control) const = 0;
   /// The structure of the results, without the parameters that are set.
   virtual const results::Schema& schema() const = 0;
   /// Whether the accuracy of the results depends on the harmonics.
@@ -54,24 +55,24 @@ class Computation {
   virtual Truncation truncation(const Items& items) const = 0;
   /// From the items of fewer harmonics, those of the scene of a case; nothing: compute() has to do it.
   virtual std::optional<RefinedItems> refine(const Case& at, const Items& coarse, double accuracy,
-                                             const results::ProgressCallback& progress) const = 0;
+                                             const control::Control& control) const = 0;
   virtual results::Result result(const Items& items, std::size_t i) const = 0;
   /// Of the items of all combinations.
   virtual std::vector<results::FigureData> figures(std::vector<std::unique_ptr<Items>> all) const = 0;
 };
 
-/// The items of one combination after the other, with the parameters set. After a stop by the callback no
+/// The items of one combination after the other, with the parameters set. After the end of `control` no
 /// further combination is started.
 std::vector<std::unique_ptr<Items>> items_of_each(
     const scene::Scene& scene, const scene::Combinations& all,
-    const std::function<std::unique_ptr<Items>(const Case&, const results::ProgressCallback&)>& compute,
-    const results::ProgressCallback& progress);
+    const std::function<std::unique_ptr<Items>(const Case&, const control::Control&)>& compute,
+    const control::Control& control);
 
 /// StudyKind::run(): up to options.threads combinations are computed at the same time, with the threads that
 /// are left for their elements, and results are handed to the sink in the order of the combinations, by this
-/// thread. After a stop by options.progress no further combination is started, unless all that were are
-/// complete: then the next one is, whose result says that it was stopped. options.progress is called by one
-/// thread at a time, and reported of the first combination that is being computed. Items are kept only if
+/// thread. After the end of options.control no further combination is started, unless all that were are
+/// complete: then the next one is, whose result says that it was stopped. Reports come from one
+/// thread at a time, and are those of the first combination that is being computed. Items are kept only if
 /// figures are requested, of up to scene::most_drawn combinations; of more, there is none.
 std::vector<results::FigureData> run_computation(const scene::Scene& scene, const scene::Study& study,
                                                  const RunOptions& options, std::size_t schema,

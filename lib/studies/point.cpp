@@ -1,6 +1,7 @@
 // The study "point": the responses at one frequency, with everything that is known of them.
 #include <arcslip/analyses/modes_and_time/time_results.hpp>
 #include <arcslip/analyses/responses/responses_at.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/results/text.hpp>
@@ -188,8 +189,8 @@ std::unique_ptr<Computation> computed_points(const scene::Scene& scene, const Po
   using All = std::span<const PointResponse>;
   auto of = std::make_unique<ComputationOf<PointResponse>>(
       described_point(scene, settings, options),
-      [&settings](const Case& at, const results::ProgressCallback& progress) {
-        return observables::point_responses(at.scene, settings, progress);
+      [&settings](const Case& at, const control::Control& control) {
+        return observables::point_responses(at.scene, settings, control);
       },
       [&scene](All all) {
         std::vector<observables::Motion> motions;
@@ -198,9 +199,9 @@ std::unique_ptr<Computation> computed_points(const scene::Scene& scene, const Po
       });
   of->truncation_of_items = [](All all) { return truncation_of(all); };
   of->refine_items = [&settings](const Case& at, All coarse, double /*accuracy*/,
-                                 const results::ProgressCallback& progress) {
+                                 const control::Control& control) {
     return std::optional(Refined<PointResponse>{
-        observables::point_responses(at.scene, settings, progress, coarse), observables::no_value});
+        observables::point_responses(at.scene, settings, control, coarse), observables::no_value});
   };
   return of;
 }

@@ -2,6 +2,7 @@
 // A kind of study: its keys (scene/study_type.hpp), and its computation, which a few functions of the items
 // that it computes define (branches, motions, optima).
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/keys/study_keys.hpp>
 #include <arcslip/studies/computation.hpp>
 #include <arcslip/studies/presentation/columns.hpp>
@@ -52,16 +53,16 @@ std::vector<Item> joined(const std::vector<std::unique_ptr<Items>>& of) {
   return items;
 }
 
-/// The items of all combinations together, in one thread; compute(at, progress) gives those of one.
+/// The items of all combinations together, in one thread; compute(at, control) gives those of one.
 template <class Item, class Compute>
 std::vector<Item> for_each(const scene::Scene& scene, const scene::Combinations& all, const Compute& compute,
-                           const results::ProgressCallback& progress = {}) {
+                           const control::Control& control = {}) {
   return joined<Item>(items_of_each(
       scene, all,
-      [&](const Case& at, const results::ProgressCallback& tell) {
-        return std::make_unique<ItemsOf<Item>>(compute(at, tell));
+      [&](const Case& at, const control::Control& of_case) {
+        return std::make_unique<ItemsOf<Item>>(compute(at, of_case));
       },
-      progress));
+      control));
 }
 
 /// Items of more harmonics, where only parts of them had to be computed anew.
@@ -77,14 +78,13 @@ template <class Item>
 class ComputationOf final : public Computation {
  public:
   using All = std::span<const Item>;
-  using Progress = results::ProgressCallback;
 
   Described<Item> described;
-  std::function<std::vector<Item>(const Case& at, const Progress& progress)> compute_items;
+  std::function<std::vector<Item>(const Case& at, const control::Control& control)> compute_items;
   std::function<std::vector<results::FigureData>(All items)> figures_of_items;
   std::function<Truncation(All items)> truncation_of_items{};
   std::function<std::optional<Refined<Item>>(const Case& at, All coarse, double accuracy,
-                                             const Progress& progress)>
+                                             const control::Control& control)>
       refine_items{};
 
   ComputationOf(Described<Item> results, decltype(compute_items) compute, decltype(figures_of_items) figures)
@@ -92,16 +92,16 @@ class ComputationOf final : public Computation {
         compute_items(std::move(compute)),
         figures_of_items(std::move(figures)) {}
 
-  std::unique_ptr<Items> compute(const Case& at, const Progress& progress) const override {
-    return std::make_unique<ItemsOf<Item>>(compute_items(at, progress));
+  std::unique_ptr<Items> compute(const Case& at, const control::Control& control) const override {
+    return std::make_unique<ItemsOf<Item>>(compute_items(at, control));
   }
   const results::Schema& schema() const override { return described.schema; }
   bool has_truncation() const override { return truncation_of_items != nullptr; }
   Truncation truncation(const Items& items) const override { return truncation_of_items(all(items)); }
   std::optional<RefinedItems> refine(const Case& at, const Items& coarse, double accuracy,
-                                     const Progress& progress) const override {
+                                     const control::Control& control) const override {
     if (!refine_items) return {};
-    auto refined = refine_items(at, all(coarse), accuracy, progress);
+    auto refined = refine_items(at, all(coarse), accuracy, control);
     if (!refined) return {};
     return RefinedItems{std::make_unique<ItemsOf<Item>>(std::move(refined->items)), refined->change};
   }

@@ -1,5 +1,6 @@
 // The study "sweep": which motions a slow sweep of the frequency follows.
 #include <arcslip/analyses/modes_and_time/frequency_sweep.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/results/text.hpp>
@@ -277,8 +278,8 @@ std::unique_ptr<Computation> computed_sweeps(const scene::Scene& scene, const Sw
                                              const RunOptions& options) {
   return std::make_unique<ComputationOf<FrequencySweep>>(
       described_sweep(scene, settings, options),
-      [&settings](const Case& at, const results::ProgressCallback& progress) {
-        return observables::frequency_sweep(at.scene, settings, progress);
+      [&settings](const Case& at, const control::Control& control) {
+        return observables::frequency_sweep(at.scene, settings, control);
       },
       [&scene](std::span<const FrequencySweep> sweeps) { return sweep_figures(scene, sweeps); });
 }

@@ -1,4 +1,5 @@
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/presentation/figures.hpp>
 #include <arcslip/studies/presentation/motions.hpp>
@@ -78,8 +79,8 @@ std::unique_ptr<Computation> computed_motion(const scene::Scene& scene, const Ti
                                              const RunOptions& options) {
   return std::make_unique<ComputationOf<Motion>>(
       motions(scene, options),
-      [&settings](const Case& at, const results::ProgressCallback& progress) {
-        return std::vector{observables::motion_in_time(at.scene, settings, progress)};
+      [&settings](const Case& at, const control::Control& control) {
+        return std::vector{observables::motion_in_time(at.scene, settings, control)};
       },
       [&scene](std::span<const Motion> motions) { return std::vector{figures_of(scene, motions)}; });
 }

@@ -1,6 +1,7 @@
 #include <arcslip/optimize/certificate/certify.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/certificate/design_estimate.hpp>
 #include <arcslip/optimize/certificate/multipliers.hpp>
 #include <arcslip/optimize/certificate/tolerance_ranges.hpp>
@@ -18,10 +19,10 @@ class Certifier {
  public:
   Certifier(LoadCases& cases, std::span<const double> lower, std::span<const double> upper,
             std::vector<ActiveLimit> limits, const std::function<double()>& margin,
-            const std::function<bool()>& go_on)
+            const control::Control& control)
       : cases_(cases),
         margin_(margin),
-        go_on_(go_on),
+        control_(control),
         lower_(lower),
         upper_(upper),
         design_(cases.state(0).design),
@@ -32,12 +33,12 @@ class Certifier {
   }
 
   Certificate run() {
-    const auto more = [&] { return !go_on_ || go_on_(); };
+    const auto more = [&] { return control_.keep_going(); };
     stationarity();
     for (std::size_t c = 0; c < cases_.size() && more(); ++c) other_branches(c);
     if (more()) curvature();
     if (more()) move_by_harmonics();
-    add_ranges(cases_, lower_, upper_, margin_, go_on_, result_);
+    add_ranges(cases_, lower_, upper_, margin_, control_, result_);
     return std::move(result_);
   }
 
@@ -82,14 +83,14 @@ class Certifier {
   }
 
   void move_by_harmonics() {
-    DesignEstimate estimate = design_estimate(cases_, balance_, go_on_);
+    DesignEstimate estimate = design_estimate(cases_, balance_, control_);
     result_.design_estimate = std::move(estimate.change);
     result_.design_flagged = estimate.flagged;
   }
 
   void other_branches(std::size_t c) {
     const double highest = levels_[cases_.group(c)] / cases_.weight(c);
-    for (OtherResponse& each : other_responses(cases_.peaks(c), design_, optimum_[c], go_on_)) {
+    for (OtherResponse& each : other_responses(cases_.peaks(c), design_, optimum_[c], control_)) {
       each.in_case = c;
       if (each.amplitude > (1 + same_amplitude) * highest) result_.others_lower = false;
       result_.others.push_back(std::move(each));
@@ -98,7 +99,7 @@ class Certifier {
 
   LoadCases& cases_;
   const std::function<double()>& margin_;
-  const std::function<bool()>& go_on_;
+  const control::Control& control_;
   std::span<const double> lower_, upper_;
   const std::vector<double> design_;
   const Vector gradient_;
@@ -112,8 +113,8 @@ class Certifier {
 
 Certificate certify(LoadCases& cases, std::span<const double> lower, std::span<const double> upper,
                     std::vector<ActiveLimit> limits, const std::function<double()>& margin,
-                    const std::function<bool()>& go_on) {
-  return Certifier(cases, lower, upper, std::move(limits), margin, go_on).run();
+                    const control::Control& control) {
+  return Certifier(cases, lower, upper, std::move(limits), margin, control).run();
 }
 
 }  // namespace arcslip::optimize

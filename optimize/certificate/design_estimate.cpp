@@ -1,6 +1,7 @@
 #include <arcslip/optimize/certificate/design_estimate.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,7 @@ struct Active {
 // The active peaks with a weight, differentiated by the parameters in `free`. Empty: not known. flagged: set
 // where the change of one may be too low.
 std::vector<Active> differentiated(const LoadCases& cases, const Balance& balance,
-                                   const std::vector<Eigen::Index>& free, const std::function<bool()>& go_on,
+                                   const std::vector<Eigen::Index>& free, const control::Control& control,
                                    bool& flagged) {
   const auto change = [](const observables::ResponsePoint& at) { return at.truncation_change; };
   std::vector<Active> all;
@@ -41,7 +42,7 @@ std::vector<Active> differentiated(const LoadCases& cases, const Balance& balanc
                                              .hessian = peaks.hessian(each.peak)});
     if (active.hessian.size() == 0) return {};
     for (std::size_t k = 0; k < free.size(); ++k) {
-      if (go_on && !go_on()) return {};
+      if (!control.keep_going()) return {};
       active.of_change[static_cast<Eigen::Index>(k)] =
           peaks.change(each.peak, static_cast<std::size_t>(free[k]), change);
     }
@@ -87,7 +88,7 @@ Equations equations_of(const std::vector<Active>& all, const LoadCases& cases,
 }  // namespace
 
 DesignEstimate design_estimate(const LoadCases& cases, const Balance& balance,
-                               const std::function<bool()>& go_on) {
+                               const control::Control& control) {
   DesignEstimate result;
   const std::vector<double>& design = cases.state(0).design;
   const bool limited = std::any_of(balance.limits.begin(), balance.limits.end(),
@@ -97,7 +98,7 @@ DesignEstimate design_estimate(const LoadCases& cases, const Balance& balance,
   for (std::size_t k = 0; k < design.size(); ++k)
     if (balance.at_bound[k] == 0) free.push_back(static_cast<Eigen::Index>(k));
   const auto n = static_cast<Eigen::Index>(free.size());
-  const std::vector<Active> all = differentiated(cases, balance, free, go_on, result.flagged);
+  const std::vector<Active> all = differentiated(cases, balance, free, control, result.flagged);
   if (all.empty()) return result;
   auto [J, r, scale] = equations_of(all, cases, free);
   if (r.size() == 0) {

@@ -11,9 +11,9 @@
 //
 // where g_i and H_i are the derivatives of A_i, and parameters at a bound stay there. Not installed.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/certificate/multipliers.hpp>
 
-#include <functional>
 #include <vector>
 
 namespace arcslip::optimize {
@@ -24,9 +24,9 @@ struct DesignEstimate {
   bool flagged = false;        // the estimate may be too low
 };
 
-/// At the current design of the cases, with its balance. go_on: called before each derivative; if it returns
-/// false the estimate is not known.
+/// At the current design of the cases, with its balance. control: asked before each derivative; at its
+/// end the estimate is not known.
 DesignEstimate design_estimate(const LoadCases& cases, const Balance& balance,
-                               const std::function<bool()>& go_on = {});
+                               const control::Control& control = {});
 
 }  // namespace arcslip::optimize

@@ -4,6 +4,7 @@
 #include <arcslip/analyses/branches/other_solutions.hpp>
 #include <arcslip/analyses/curves/sensitivity.hpp>
 #include <arcslip/continuation/diagrams/deflation.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/observables/observe.hpp>
 
 #include <cmath>
@@ -19,29 +20,29 @@ constexpr int deflation_iterations = 40;
 class OtherResponses {
  public:
   OtherResponses(const PeakAmplitude& peaks, std::span<const double> design, const PeakState& optimum,
-                 const std::function<bool()>& go_on)
+                 const control::Control& control)
       : peaks_(peaks),
         problem_(peaks.problem()),
         model_(peaks.model_at(design)),
         window_(peaks.window()),
         optimum_(optimum),
-        go_on_(go_on),
+        control_(control),
         p_(peaks.parameters(design)),
         sensitivity_(problem_) {}
 
   std::vector<OtherResponse> run() {
     const auto upper =
-        observables::first_response(model_, window_.upper, window_.upper - window_.lower, go_on_);
+        observables::first_response(model_, window_.upper, window_.upper - window_.lower, control_);
     if (upper.u && !is_upper_end(*upper.u)) {
       at_end_ = {};
       observables::frequency_branch(model_, window_, window_.upper, recording(), -1,
-                                    observables::Steps::curve, go_on_);
+                                    observables::Steps::curve, control_);
       add_highest("sweep downwards");
     }
     if (observables::may_have_several_responses(*model_)) {
       nearby(window_.upper, upper, -1);
       const auto lower =
-          observables::first_response(model_, window_.lower, window_.upper - window_.lower, go_on_);
+          observables::first_response(model_, window_.lower, window_.upper - window_.lower, control_);
       nearby(window_.lower, lower, 1);
     }
     by_deflation();
@@ -63,14 +64,14 @@ class OtherResponses {
   void nearby(double end, const observables::FirstResponse& first, int direction) {
     if (!first.u) return;
     const Vector p = hbm::parameters_at(*first.problem, end);
-    for (const Vector& u : observables::further_responses(first.problem, p, {*first.u}, go_on_)) {
+    for (const Vector& u : observables::further_responses(first.problem, p, {*first.u}, control_)) {
       const bool is_known = observables::index_of(*first.problem, u, ends_) < ends_.size();
       if (is_known || (end == window_.upper && is_upper_end(u))) continue;
       at_end_ = {};
       const auto traced = observables::frequency_branch_part(
           first.problem, window_, end, direction > 0 ? window_.upper : window_.lower, u, recording(),
-          direction, observables::Steps::curve, go_on_, {});
-      if (go_on_ && !go_on_()) return;
+          direction, observables::Steps::curve, control_, {});
+      if (!control_.keep_going()) return;
       if (!traced.branch.points.empty()) ends_.push_back(traced.branch.points.back().u);
       add_highest("search at the ends");
     }
@@ -82,7 +83,7 @@ class OtherResponses {
     const Vector known = peak.x.head(problem_->size());
     continuation::DeflationOptions options;
     options.iterations = deflation_iterations;
-    options.go_on = go_on_;
+    options.control = control_;
     for (const Vector& u : continuation::deflate(*problem_, p_, {known}, {known}, options))
       add("deflation", u, peak.omega());
   }
@@ -113,7 +114,7 @@ class OtherResponses {
   const std::shared_ptr<const model::Model> model_;
   const observables::FrequencyWindow window_;
   const PeakState& optimum_;
-  const std::function<bool()> go_on_;
+  control::Control control_;
   Vector p_;
   observables::Sensitivity sensitivity_;
   Highest at_end_{};
@@ -124,8 +125,8 @@ class OtherResponses {
 }  // namespace
 
 std::vector<OtherResponse> other_responses(const PeakAmplitude& peaks, std::span<const double> design,
-                                           const PeakState& optimum, const std::function<bool()>& go_on) {
-  return OtherResponses(peaks, design, optimum, go_on).run();
+                                           const PeakState& optimum, const control::Control& control) {
+  return OtherResponses(peaks, design, optimum, control).run();
 }
 
 }  // namespace arcslip::optimize

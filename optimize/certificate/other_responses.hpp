@@ -1,10 +1,10 @@
 #pragma once
 // Responses of an optimum on branches that its search does not follow.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +22,6 @@ struct OtherResponse {
 /// does not end there; where a law may have several responses, on those through further responses at both
 /// ends, as of a window within a hysteresis; and by deflation at the highest peak.
 std::vector<OtherResponse> other_responses(const PeakAmplitude& peaks, std::span<const double> design,
-                                           const PeakState& optimum, const std::function<bool()>& go_on);
+                                           const PeakState& optimum, const control::Control& control);
 
 }  // namespace arcslip::optimize

@@ -1,5 +1,6 @@
 #include <arcslip/optimize/certificate/tolerance_ranges.hpp>
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/evaluation/design_space.hpp>
 
 #include <algorithm>
@@ -41,12 +42,12 @@ double target_level(double share) {
 class RangeSearch {
  public:
   RangeSearch(LoadCases& cases, std::span<const double> lower, std::span<const double> upper,
-              const std::function<double()>& margin, const std::function<bool()>& go_on, Certificate& result)
+              const std::function<double()>& margin, const control::Control& control, Certificate& result)
       : cases_(cases),
         lower_(lower),
         upper_(upper),
         margin_(margin),
-        go_on_(go_on),
+        control_(control),
         design_(cases.state(0).design),
         value_(cases.value()),
         margin_at_optimum_(margin ? margin() : -1),
@@ -88,7 +89,7 @@ class RangeSearch {
     Seen seen;
   };
 
-  bool keeps_on() const { return !go_on_ || go_on_(); }
+  bool keeps_on() const { return control_.keep_going(); }
 
   std::vector<ToleranceRange> ranges(std::size_t parameter) {
     const double at = design_[parameter];
@@ -239,7 +240,7 @@ class RangeSearch {
   LoadCases& cases_;
   std::span<const double> lower_, upper_;
   const std::function<double()>& margin_;
-  const std::function<bool()>& go_on_;
+  const control::Control& control_;
   const std::vector<double> design_;  // of the optimum
   const double value_, margin_at_optimum_;
   double lowest_;
@@ -249,9 +250,9 @@ class RangeSearch {
 }  // namespace
 
 void add_ranges(LoadCases& cases, std::span<const double> lower, std::span<const double> upper,
-                const std::function<double()>& margin, const std::function<bool()>& go_on,
+                const std::function<double()>& margin, const control::Control& control,
                 Certificate& certificate) {
-  RangeSearch(cases, lower, upper, margin, go_on, certificate).run();
+  RangeSearch(cases, lower, upper, margin, control, certificate).run();
 }
 
 }  // namespace arcslip::optimize

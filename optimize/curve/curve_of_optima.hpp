@@ -3,11 +3,12 @@
 
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/curve/active_set.hpp>
 #include <arcslip/optimize/curve/active_set_point.hpp>
 #include <arcslip/optimize/curve/optimum_curve.hpp>
 #include <arcslip/optimize/evaluation/design_space.hpp>
-#include <arcslip/optimize/evaluation/watch.hpp>
+#include <arcslip/optimize/evaluation/interruption.hpp>
 
 #include <cstddef>
 #include <map>
@@ -63,7 +64,7 @@ class CurveOfOptima {
     continuation::Branch branch;
     std::map<double, Seen> seen;  // by arclength
     std::vector<Inequality> may_change;
-    bool response_due = false, stopped_by_user = false;
+    bool response_due = false;
   };
   Piece trace_piece();
   std::vector<continuation::Monitor> monitors(const std::vector<Inequality>& may_change) const;
@@ -114,7 +115,9 @@ class CurveOfOptima {
   const OptimumProblem& problem_;
   const DesignVariable& along_;
   const OptimumCurveOptions& options_;
-  Watch watch_;
+  const control::Control control_;
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  const char* phase_ = "the search for the first optimum";
   DesignSpace space_;  // of the design and, last, s
   double unit_;
   PeakAmplitude peaks_;

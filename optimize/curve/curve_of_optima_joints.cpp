@@ -31,7 +31,7 @@ void CurveOfOptima::guard() {
     end(Status::stopped, reasons::no_progress,
         text("at ", place(here_.sigma), " ", most_idle_pieces, " consecutive pieces of the curve lie within ",
              least_progress, " of each other in the logarithms"));
-  } else if (!watch_.go_on()) {
+  } else if (!control_.keep_going()) {
     end_interrupted();
   }
 }

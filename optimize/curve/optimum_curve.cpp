@@ -59,12 +59,12 @@ CurveOfOptima::CurveOfOptima(const scene::Scene& scene, const OptimumProblem& pr
       problem_(problem),
       along_(along),
       options_(options),
-      watch_(options.seconds, options.search.go_on),
+      control_(options.search.control.until(options.seconds)),
       space_(scene, with_along(problem, along)),
       unit_(scene::to_rad_per_s(scene.frequency_unit)),
       peaks_(space_.model(), space_.parameters(),
              {problem.frequency_from * unit_, problem.frequency_to * unit_},
-             [this] { return watch_.go_on_within(); }) {
+             control_.child({.grace = grace})) {
   scaled_ = space_.scales();
   curve_.along = along.name;
   if (!(options.points >= 1)) throw OptionsError(text("points is ", options.points, ", must be >= 1"));
@@ -111,21 +111,20 @@ bool CurveOfOptima::end(Status status, const results::Reason& reason, std::strin
 }
 
 bool CurveOfOptima::end_interrupted() {
-  const observables::Stop why = watch_.why();
+  const observables::Stop why = interruption(control_, phase_);
   return end(Status::stopped, why.reason,
              why.message + (curve_.points.empty() ? "" : " at " + place(here_.sigma)));
 }
 
 bool CurveOfOptima::begin() {
-  watch_.begin("the search for the first optimum");
   scene::Scene at = scene_;
   scene::set(at, along_.name, along_.lower);
   OptimumOptions search = options_.search;
   search.certificate = false;
-  search.go_on = [this] { return watch_.go_on(); };
+  search.control = control_;
   curve_.start = optimum(at, problem_, search);
-  if (watch_.stopped()) return end_interrupted();
-  watch_.begin("the curve");
+  if (!control_.keep_going()) return end_interrupted();
+  phase_ = "the curve";
   const Optimum& first = curve_.start;
   const std::string where = text("at ", along_.name, " = ", along_.lower, ": ");
   const bool found = first.status == Status::complete || first.stop.reason == reasons::end_of_window;
@@ -242,7 +241,7 @@ continuation::Options CurveOfOptima::trace_options() {
   options.step.initial = step_;
   options.step.smallest = smallest_step;
   options.points = std::max<long>(1, options_.points - static_cast<long>(curve_.points.size()) + 1);
-  options.go_on = [this] { return watch_.go_on(); };
+  options.control = control_;
   return options;
 }
 
@@ -257,13 +256,13 @@ CurveOfOptima::Piece CurveOfOptima::trace_piece() {
     Seen& seen = piece.seen[now.arclength];
     seen = {point(evaluator(now)), evaluator(now).slope_along(), there.orientation};
     try {
-      piece.stopped_by_user = options_.progress && !options_.progress(seen.point);
+      if (options_.progress) options_.progress(seen.point);
     } catch (...) {
       thrown = std::current_exception();
-      piece.stopped_by_user = true;
+      return false;
     }
     piece.response_due = way_since_response(seen.point) >= interval_;
-    return !piece.response_due && !piece.stopped_by_user;
+    return !piece.response_due && control_.keep_going();
   };
   const continuation::Start start{here_.z, Vector::Constant(1, here_.sigma), 0, 1, here_.tangent};
   continuation::Branch& branch = piece.branch;
@@ -298,12 +297,10 @@ void CurveOfOptima::piece() {
       change(last_change(branch, piece.may_change.size()), piece.may_change, *at);
       return;
     case StopReason::user:
-      if (watch_.stopped())
+      if (!control_.keep_going())
         end_interrupted();
-      else if (piece.response_due && !piece.stopped_by_user)
-        verify();
       else
-        stop_with(branch.stop);
+        verify();
       return;
     case StopReason::step_too_small:
     case StopReason::not_evaluated:
@@ -434,7 +431,7 @@ double CurveOfOptima::way_since_response(const OptimumPoint& at) {
 
 void CurveOfOptima::finish() {
   curve_.work.peaks = peaks_.work();
-  curve_.work.seconds = watch_.seconds();
+  curve_.work.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   if (curve_.points.empty()) return;
   const OptimumPoint& last = curve_.points.back();
   std::vector<double> design = last.design;

@@ -110,11 +110,11 @@ struct OptimumCurve {
 
 struct OptimumCurveOptions {
   OptimumOptions
-      search{};        // of the first optimum, without its certificate; go_on also applies along the curve
+      search{};  // of the first optimum, without its certificate; its control also applies along the curve
   int points = 1000;   // maximum
   double seconds = 0;  // 0: no limit
   double step = 0.02;  // maximum, as a share of the range of ln s (of s if the range includes zero)
-  std::function<bool(const OptimumPoint&)> progress{};  // after each point; false stops
+  std::function<void(const OptimumPoint&)> progress{};  // after each point
 };
 
 /// Continues the optimum from s = along.lower to along.upper; the search for the first optimum starts from

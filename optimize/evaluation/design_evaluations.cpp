@@ -1,6 +1,8 @@
 #include <arcslip/optimize/evaluation/design_evaluations.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/control/run_control.hpp>
+#include <arcslip/optimize/evaluation/interruption.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,14 +26,15 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-DesignEvaluations::DesignEvaluations(const scene::Scene& scene, const OptimumProblem& problem, Watch& watch,
-                                     bool far_apart, int threads,
-                                     std::function<bool(const OptimumProgress&)> progress)
+DesignEvaluations::DesignEvaluations(const scene::Scene& scene, const OptimumProblem& problem,
+                                     const control::Control& control, bool far_apart, int threads,
+                                     std::function<void(const OptimumProgress&)> progress)
     : progress_(std::move(progress)),
-      watch_(watch),
+      control_(control),
+      within_(control.child({.grace = grace})),
       space_(scene, problem),
       scenarios_(scene, problem, space_),
-      cases_(problem.criterion, threads),
+      cases_(problem.criterion, threads, within_),
       formulation_(problem, space_, cases_),
       far_apart_(far_apart) {
   for (const Scenario& each : scenarios_.first()) add(each);
@@ -39,11 +42,7 @@ DesignEvaluations::DesignEvaluations(const scene::Scene& scene, const OptimumPro
 
 void DesignEvaluations::add(const Scenario& scenario) {
   all_.push_back(scenario);
-  const auto go_on = [this] {
-    const std::lock_guard lock(asking_);
-    return watch_.go_on_within();
-  };
-  cases_.add(scenarios_.peaks(scenario, go_on), scenarios_.weight(scenario));
+  cases_.add(scenarios_.peaks(scenario, within_), scenarios_.weight(scenario));
   best_.excess = best_traced_.excess = std::numeric_limits<double>::infinity();
 }
 
@@ -72,14 +71,12 @@ void DesignEvaluations::tell() {
   const Evaluation& last = evaluations_.back();
   const PeakState& state = cases_.state(cases_.highest());
   const double best = best_.excess == 0 ? best_.value : std::numeric_limits<double>::infinity();
-  if (!progress_({static_cast<int>(evaluations_.size() + elsewhere_.size()), last.design,
-                  state.peaks.empty() ? 0.0 : state.peaks[state.highest].omega(), last.amplitude, best,
-                  watch_.phase()}))
-    watch_.stop();
+  progress_({static_cast<int>(evaluations_.size() + elsewhere_.size()), last.design,
+             state.peaks.empty() ? 0.0 : state.peaks[state.highest].omega(), last.amplitude, best, phase_});
 }
 
 void DesignEvaluations::begin(const char* phase) {
-  watch_.begin(phase);
+  if (control_.keep_going()) phase_ = phase;  // else it is that of the end
   tell();
 }
 
@@ -107,12 +104,7 @@ std::vector<Scenario> DesignEvaluations::worse_scatter() {
       }
     const double level = (1 + worse) * cases_.value() / cases_.weight(any);
     const auto worst = scenarios_.worst(
-        cases_.peaks(any).model_at(design), known, level,
-        [this] {
-          tell();
-          return watch_.go_on();
-        },
-        [this] { return watch_.go_on_within(); });
+        cases_.peaks(any).model_at(design), known, level, [this] { tell(); }, control_, within_);
     const bool seen = std::any_of(known.begin(), known.end(),
                                   [&](const auto& scatter) { return same(scatter, worst.scatter); });
     if (!seen && worst.amplitude > level) found.push_back({of, worst.scatter});

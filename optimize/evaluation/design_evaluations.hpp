@@ -2,15 +2,14 @@
 // The design evaluations of a search: V (load_cases.hpp) at each, the best so far, progress and interruption.
 // Not installed.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/evaluation/formulation.hpp>
 #include <arcslip/optimize/evaluation/load_cases.hpp>
 #include <arcslip/optimize/evaluation/scenarios.hpp>
-#include <arcslip/optimize/evaluation/watch.hpp>
 
 #include <functional>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,11 +35,12 @@ class DesignEvaluations {
  public:
   /// Starts with the initial scenarios. far_apart: for a global search, whose distant designs may miss a new
   /// peak: the responses of a new best design are traced. threads: load cases evaluated at the same time.
-  /// progress: called after each evaluation and at the start of each phase; false stops the watch. Throws as
-  /// optimum() does. Refers to its other arguments. Functions that move the cases throw Interrupted if the
-  /// watch ends them.
-  DesignEvaluations(const scene::Scene& scene, const OptimumProblem& problem, Watch& watch, bool far_apart,
-                    int threads = 1, std::function<bool(const OptimumProgress&)> progress = {});
+  /// progress: called after each evaluation and at the start of each phase. Throws as optimum() does. Refers
+  /// to its other arguments. Functions that move the cases throw Interrupted at the end of `control`, half a
+  /// second later.
+  DesignEvaluations(const scene::Scene& scene, const OptimumProblem& problem, const control::Control& control,
+                    bool far_apart, int threads = 1,
+                    std::function<void(const OptimumProgress&)> progress = {});
 
   /// Adds a case and resets the best design.
   void add(const Scenario& scenario);
@@ -63,9 +63,11 @@ class DesignEvaluations {
   /// better one.
   void recall_best();
 
-  Watch& watch() { return watch_; }
+  const control::Control& control() const { return control_; }
   /// Starts another phase, and reports it.
   void begin(const char* phase);
+  /// In messages: "the search".
+  const char* phase() const { return phase_; }
 
   const DesignSpace& space() const { return space_; }
   const Scenarios& scenarios() const { return scenarios_; }
@@ -84,11 +86,11 @@ class DesignEvaluations {
   void tell();
   Best here();
 
-  std::function<bool(const OptimumProgress&)> progress_;
-  Watch& watch_;
+  std::function<void(const OptimumProgress&)> progress_;
+  const control::Control control_, within_;  // within_: of an evaluation
+  const char* phase_ = "the search";
   DesignSpace space_;
   Scenarios scenarios_;
-  std::mutex asking_;  // by the threads of the load cases
   LoadCases cases_;
   std::vector<Scenario> all_;  // of the cases
   Formulation formulation_;

@@ -1,9 +1,9 @@
 #include <arcslip/optimize/evaluation/load_cases.hpp>
 
 #include <arcslip/control/ordered_parallel_for.hpp>
+#include <arcslip/optimize/nlopt/interrupted.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -14,16 +14,21 @@ void LoadCases::add(std::unique_ptr<PeakAmplitude> peaks, double weight) {
   sum_ += weight;
 }
 
+template <class Move>
+void LoadCases::each(const Move& move) {
+  std::size_t moved = 0;
+  control::in_order(
+      size(), threads_, control_.child(), [&](std::size_t c) { return &move(*all_[c].peaks); },
+      [&](const PeakState*) { ++moved; });
+  if (moved < size()) throw Interrupted();
+}
+
 void LoadCases::at(std::span<const double> design) {
-  std::atomic<bool> goes_on = true;
-  const auto move = [&](std::size_t c) { return &all_[c].peaks->at(design); };
-  studies::in_order(size(), threads_, goes_on, move, [](const PeakState*) {});
+  each([&](PeakAmplitude& peaks) -> const PeakState& { return peaks.at(design); });
 }
 
 void LoadCases::trace(std::span<const double> design, observables::Steps steps) {
-  std::atomic<bool> goes_on = true;
-  const auto trace = [&](std::size_t c) { return &all_[c].peaks->trace(design, steps); };
-  studies::in_order(size(), threads_, goes_on, trace, [](const PeakState*) {});
+  each([&](PeakAmplitude& peaks) -> const PeakState& { return peaks.trace(design, steps); });
 }
 
 bool LoadCases::is_at(std::span<const double> design) const {

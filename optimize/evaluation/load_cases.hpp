@@ -6,6 +6,7 @@
 //
 // Both are a sum over groups of cases of the maximum in the group: one group, or one group for each case.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/evaluation/optimum_problem.hpp>
 #include <arcslip/optimize/peaks/peak_amplitude.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -19,11 +20,12 @@ namespace arcslip::optimize {
 
 class LoadCases {
  public:
-  /// threads: how many cases are evaluated at the same time, with the results of one.
-  explicit LoadCases(Criterion criterion, int threads = 1) : criterion_(criterion), threads_(threads) {}
+  /// threads: how many cases are evaluated at the same time, with the results of one. control: that of the
+  /// peaks.
+  explicit LoadCases(Criterion criterion, int threads = 1, control::Control control = {})
+      : criterion_(criterion), threads_(threads), control_(std::move(control)) {}
 
-  /// weight: above 0. All cases have the same design parameters. With several threads, each calls what the
-  /// peaks call.
+  /// weight: above 0. All cases have the same design parameters.
   void add(std::unique_ptr<PeakAmplitude> peaks, double weight);
 
   /// Moves all cases to a design, by tracking their peaks or by a new response for each.
@@ -54,6 +56,9 @@ class LoadCases {
   PeakWork work() const;
 
  private:
+  template <class Move>
+  void each(const Move& move);
+
   struct Each {
     std::unique_ptr<PeakAmplitude> peaks;
     double weight;
@@ -61,6 +66,7 @@ class LoadCases {
 
   Criterion criterion_;
   int threads_;
+  control::Control control_;
   std::vector<Each> all_;
   double sum_ = 0;  // of the weights
 };

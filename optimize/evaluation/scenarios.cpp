@@ -1,6 +1,7 @@
 #include <arcslip/optimize/evaluation/scenarios.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -109,7 +110,7 @@ std::vector<Scenario> Scenarios::first() const {
   return all;
 }
 
-std::unique_ptr<PeakAmplitude> Scenarios::peaks(const Scenario& scenario, observables::GoOn go_on) const {
+std::unique_ptr<PeakAmplitude> Scenarios::peaks(const Scenario& scenario, control::Control control) const {
   const LoadCase& of = cases_[scenario.of];
   auto model = space_.model();
   if (!of.set.empty() || of.response || box_) {
@@ -118,7 +119,7 @@ std::unique_ptr<PeakAmplitude> Scenarios::peaks(const Scenario& scenario, observ
       scene::set(scene, problem_.scatter[k].name, scenario.scatter[k]);
     model = std::make_shared<const model::Model>(model::build(scene));
   }
-  return std::make_unique<PeakAmplitude>(model, space_.parameters(), window_, std::move(go_on),
+  return std::make_unique<PeakAmplitude>(model, space_.parameters(), window_, std::move(control),
                                          problem_.limits.empty() ? MonitoredEvents{} : watched_for_limits);
 }
 
@@ -140,7 +141,8 @@ std::string Scenarios::text(const Scenario& scenario) const {
 
 Scenarios::Worst Scenarios::worst(std::shared_ptr<const model::Model> model,
                                   const std::vector<std::vector<double>>& known, double level,
-                                  const std::function<bool()>& go_on, const observables::GoOn& within) const {
+                                  const std::function<void()>& report, const control::Control& control,
+                                  const control::Control& within) const {
   Worst worst;
   PeakAmplitude peaks(std::move(model), box_->parameters(), window_, within);
   const auto look = [&](const PeakState& state) {
@@ -150,8 +152,10 @@ Scenarios::Worst Scenarios::worst(std::shared_ptr<const model::Model> model,
     if (amplitude > worst.amplitude) worst = {state.design, amplitude};
     return amplitude;
   };
-  bool more = true;
-  const auto goes_on = [&] { return (more = more && go_on()) && std::isfinite(worst.amplitude); };
+  const auto goes_on = [&] {
+    report();
+    return control.keep_going() && std::isfinite(worst.amplitude);
+  };
   NonlinearProgram problem;
   problem.lower = box_->scaled(box_->lower());
   problem.upper = box_->scaled(box_->upper());
@@ -169,7 +173,7 @@ Scenarios::Worst Scenarios::worst(std::shared_ptr<const model::Model> model,
   options.tolerances = {.x_relative = 0, .x_absolute = 1e-7, .f_relative = 0, .f_absolute = 1e-13};
   options.progress = [&](const MinimizeProgress&) { return goes_on(); };
   const auto search = [&](const std::vector<double>& start) {
-    if (!more || !std::isfinite(worst.amplitude)) return;
+    if (!control.keep_going() || !std::isfinite(worst.amplitude)) return;
     if (look(peaks.at(start)) == 0) return;  // without excitation there is no way up from here
     const MinimizeResult found = minimize(problem, box_->scaled(start), options);
     if (found.reason != MinimizeReason::user && found.reason != MinimizeReason::rounding &&

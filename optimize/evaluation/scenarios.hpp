@@ -1,6 +1,7 @@
 #pragma once
 // Scenarios: the cases of a problem with values of the uncertain parameters. Not installed.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/evaluation/design_space.hpp>
 
 #include <cstddef>
@@ -31,7 +32,7 @@ class Scenarios {
   /// Number of the problem's cases, at least 1.
   std::size_t size() const { return cases_.size(); }
   double weight(const Scenario& scenario) const { return cases_[scenario.of].weight; }
-  std::unique_ptr<PeakAmplitude> peaks(const Scenario& scenario, observables::GoOn go_on) const;
+  std::unique_ptr<PeakAmplitude> peaks(const Scenario& scenario, control::Control control) const;
   LoadCaseResult result(const Scenario& scenario) const;
 
   /// "in case 2 with k.value = 3: ", or nothing for one case without scatter.
@@ -45,11 +46,12 @@ class Scenarios {
   };
 
   /// The highest amplitude in the box of a case, by local searches from each of `known` and from the centre.
-  /// If none exceeds `level`, by another one from the highest of up to 64 corners. go_on: called after each
+  /// If none exceeds `level`, by another one from the highest of up to 64 corners. report: called after each
   /// evaluation; false ends the searches. within: called throughout; false throws Interrupted. Throws
   /// std::runtime_error if a search fails.
   Worst worst(std::shared_ptr<const model::Model> model, const std::vector<std::vector<double>>& known,
-              double level, const std::function<bool()>& go_on, const observables::GoOn& within) const;
+              double level, const std::function<void()>& report, const control::Control& control,
+              const control::Control& within) const;
 
  private:
   std::vector<double> centre() const;

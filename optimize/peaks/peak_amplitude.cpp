@@ -2,6 +2,7 @@
 
 #include <arcslip/analyses/branches/unbounded_resonance.hpp>
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/nlopt/minimize.hpp>
 #include <arcslip/optimize/peaks/peak_follower.hpp>
 #include <arcslip/optimize/peaks/peak_unknowns.hpp>
@@ -53,20 +54,20 @@ double PeakState::amplitude() const {
 }
 
 PeakAmplitude::PeakAmplitude(std::shared_ptr<const model::Model> model, std::vector<int> over,
-                             const observables::FrequencyWindow& window, observables::GoOn go_on,
+                             const observables::FrequencyWindow& window, control::Control control,
                              MonitoredEvents watched)
     : model_(std::move(model)),
       over_(std::move(over)),
       window_(window),
-      go_on_(std::move(go_on)),
+      control_(std::move(control)),
       watched_(watched) {
   if (!model_->others.empty())
     throw OptionsError(
         continuation::text("the response is the largest of ", 1 + model_->others.size(),
                            " places, each of which needs a load case of its own (with_places())"));
-  if (!go_on_) return;
+  if (!control_.can_end()) return;
   auto with = std::make_shared<model::Model>(*model_);
-  with->stop = [on = stoppable_, go_on = go_on_] { return *on && !go_on(); };
+  with->control = control_.child({.only_while = stoppable_});
   model_ = std::move(with);
 }
 
@@ -98,8 +99,8 @@ PeakState PeakAmplitude::response(std::span<const double> design, observables::S
     return found;
   }
   // Without an observer, which would require an evaluation at each point.
-  const auto traced = observables::frequency_branch(model, window_, window_.lower, {}, 1, steps, go_on_);
-  if (go_on_ && !go_on_()) throw Interrupted();
+  const auto traced = observables::frequency_branch(model, window_, window_.lower, {}, 1, steps, control_);
+  if (!control_.keep_going()) throw Interrupted();
   work_.factorizations += traced.branch.counts.factorizations;
   const auto& points = traced.branch.points;
   observables::PoleWatch watch(window_.lower, window_.upper);

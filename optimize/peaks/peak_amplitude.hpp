@@ -22,9 +22,11 @@
 #include <arcslip/analyses/branches/frequency_branch.hpp>
 #include <arcslip/analyses/curves/sensitivity.hpp>
 #include <arcslip/analyses/curves/special_point_observer.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/nlopt/interrupted.hpp>
 #include <arcslip/results/response.hpp>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -103,11 +105,11 @@ class PeakFollower;
 
 class PeakAmplitude {
  public:
-  /// over: indices of parameters of the model. go_on: called at each step of each response, and within
-  /// evaluations that take long (Model::stop); if it returns false, at() and trace() throw Interrupted, and
+  /// over: indices of parameters of the model. control: asked at each step of each response, and within
+  /// evaluations that take long (Model::control); at its end at() and trace() throw Interrupted, and
   /// this object must not be used any more, except to observe an earlier state.
   PeakAmplitude(std::shared_ptr<const model::Model> model, std::vector<int> over,
-                const observables::FrequencyWindow& window, observables::GoOn go_on = {},
+                const observables::FrequencyWindow& window, control::Control control = {},
                 MonitoredEvents watched = {});
   ~PeakAmplitude();
 
@@ -124,7 +126,7 @@ class PeakAmplitude {
 
   /// Of the same model over another window.
   PeakAmplitude over_window(const observables::FrequencyWindow& window) const {
-    return {model_, over_, window, go_on_, watched_};
+    return {model_, over_, window, control_, watched_};
   }
 
   const PeakState& state() const { return state_; }
@@ -185,22 +187,22 @@ class PeakAmplitude {
   /// Without one they are not, so that the best design is observed after a stop as well.
   class Stoppable {
    public:
-    explicit Stoppable(const PeakAmplitude& peaks)
-        : on_(peaks.stoppable_), before_(std::exchange(*on_, true)) {}
+    explicit Stoppable(const PeakAmplitude& peaks) : on_(peaks.stoppable_), before_(on_->exchange(true)) {}
     Stoppable(const Stoppable&) = delete;
     Stoppable& operator=(const Stoppable&) = delete;
     ~Stoppable() { *on_ = before_; }
 
    private:
-    std::shared_ptr<bool> on_;
+    std::shared_ptr<std::atomic<bool>> on_;
     bool before_;
   };
 
-  const std::shared_ptr<bool> stoppable_ = std::make_shared<bool>(false);  // shared with the model's stop
+  const std::shared_ptr<std::atomic<bool>> stoppable_ =
+      std::make_shared<std::atomic<bool>>(false);  // shared with the control of the model
   std::shared_ptr<const model::Model> model_;
   std::vector<int> over_;
   observables::FrequencyWindow window_;
-  observables::GoOn go_on_;
+  control::Control control_;
   MonitoredEvents watched_;
   PeakState state_;
   std::vector<double> traced_;    // the design of the last response

@@ -1,5 +1,6 @@
 #include <arcslip/analyses/curves/curves.hpp>
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/optimize/certificate/multipliers.hpp>
 #include <arcslip/optimize/evaluation/design_space.hpp>
@@ -21,10 +22,10 @@ constexpr double least_peak = 0.3;  // of the highest peak: lower ones are not f
 
 // Of the curves of the result. Where another peak is higher at one, a sentence about it.
 std::string least_minimum(const scene::Scene& scene, const OptimumProblem& problem, const DesignSpace& space,
-                          observables::GoOn go_on, DirectOptimum& result) {
+                          control::Control control, DirectOptimum& result) {
   const double unit = scene::to_rad_per_s(scene.frequency_unit);
   PeakAmplitude peaks(space.model(), space.parameters(),
-                      {problem.frequency_from * unit, problem.frequency_to * unit}, std::move(go_on));
+                      {problem.frequency_from * unit, problem.frequency_to * unit}, std::move(control));
   std::string higher;
   for (const auto& curve : result.curves)
     for (const auto& event : curve.events) {
@@ -55,16 +56,16 @@ bool has_sampled_friction(const scene::Scene& scene) {
 
 std::vector<observables::ResponseBranch> curves_of_peaks(const scene::Scene& scene,
                                                          const OptimumProblem& problem,
-                                                         const observables::ProgressCallback& progress) {
+                                                         const control::Control& control) {
   if (has_sampled_friction(scene)) return {};
   const DesignVariable& over = problem.over.front();
   return observables::high_resonance_peaks(
       scene, {over.name, over.lower, over.upper, problem.frequency_from, problem.frequency_to}, least_peak,
-      progress);
+      control);
 }
 
 DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& problem,
-                             const observables::ProgressCallback& progress) {
+                             const control::Control& control) {
   if (problem.over.size() != 1)
     throw OptionsError(text("the direct method requires one design parameter, not ", problem.over.size()));
   if (!problem.cases.empty() || !problem.scatter.empty())
@@ -77,18 +78,13 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
         "wherever a sample changes between stick and slip";
     return result;
   }
-  bool stopped = false;
-  const auto ask = [&](const observables::Progress& now) {
-    stopped = stopped || (progress && !progress(now));
-    return !stopped;
-  };
-  result.curves = curves_of_peaks(scene, problem, ask);
+  result.curves = curves_of_peaks(scene, problem, control);
   std::string higher;
   try {
-    higher = least_minimum(scene, problem, space, [&] { return ask({}); }, result);
+    higher = least_minimum(scene, problem, space, control, result);
   } catch (const Interrupted&) {
   }
-  if (stopped) {
+  if (!control.keep_going()) {
     result.found = false;
     result.message = "stopped by the caller";
   } else if (!result.found) {

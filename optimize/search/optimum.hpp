@@ -23,6 +23,7 @@
 // Limits apply at the q that are cases.
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/certificate/certificate.hpp>
 #include <arcslip/optimize/evaluation/evaluation.hpp>
 #include <arcslip/optimize/evaluation/optimum_problem.hpp>
@@ -55,18 +56,17 @@ struct OptimumOptions {
   std::optional<LocalOptions> local{};
   int population = 0;
   unsigned long seed = 1;
-  int threads = 1;  // load cases evaluated at the same time, with the results of one; go_on is then called by
-                    // several threads, one at a time
+  int threads = 1;  // load cases evaluated at the same time, with the results of one
   bool certificate = true;
   /// With several parameters or with limits: how many designs local searches start from at most, the scene's
   /// own and the lowest of designs sampled over the bounds, each with as many evaluations. 1: only its own.
   /// With limits also by LN_COBYLA from those, and by LN_COBYLA and LD_MMA from the scene's own.
   int starts = default_starts;
-  std::function<bool(const OptimumProgress&)> progress{};  // called after each evaluation and at the start of
-                                                           // each phase; false stops
-  /// Called in every phase at each step of each response; false stops with reason user, as soon as the
-  /// current evaluation has ended, or within half a second. The time limit acts likewise.
-  std::function<bool()> go_on{};
+  std::function<void(const OptimumProgress&)> progress{};  // called after each evaluation and at the start of
+                                                           // each phase
+  /// Asked in every phase at each step of each response; at its end the search stops with reason user, or
+  /// time_limit, as soon as the current evaluation has ended, or within half a second.
+  control::Control control{};
 };
 
 /// Where the local searches of one optimum led. A search that comes near a minimum found before it is ended,
@@ -119,15 +119,15 @@ struct DirectOptimum {
   std::vector<observables::ResponseBranch> curves;  // of peaks over the bounds
   std::string message;                              // why there is none
 };
-/// progress: of the curves; false ends it with the curves so far.
+/// control: at its end the curves so far are the result.
 DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& problem,
-                             const observables::ProgressCallback& progress = {});
+                             const control::Control& control = {});
 
 /// Its curves: of the resonance peaks over the only parameter, without those below 0.3 of the highest peak
 /// wherever they are looked for; none with sampled friction. The cases and limits of the problem do not
 /// count.
 std::vector<observables::ResponseBranch> curves_of_peaks(const scene::Scene& scene,
                                                          const OptimumProblem& problem,
-                                                         const observables::ProgressCallback& progress = {});
+                                                         const control::Control& control = {});
 
 }  // namespace arcslip::optimize

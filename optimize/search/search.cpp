@@ -2,6 +2,7 @@
 
 #include <arcslip/analyses/branches/branch_description.hpp>
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/optimize/evaluation/interruption.hpp>
 #include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/optimize/nlopt/interrupted.hpp>
 #include <arcslip/optimize/search/start.hpp>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <tuple>
@@ -37,8 +39,8 @@ Search::Search(const scene::Scene& scene, const OptimumProblem& problem, const O
       options_(options),
       limited_(!problem.limits.empty() || !problem.linear_limits.empty()),
       asked_(algorithm(options.algorithm.empty() ? std::string(default_algorithm) : options.algorithm)),
-      watch_(options.seconds, options.go_on),
-      designs_(scene, problem, watch_, asked_.global, options.threads, options.progress),
+      control_(options.control.until(options.seconds)),
+      designs_(scene, problem, control_, asked_.global, options.threads, options.progress),
       s_{.algorithm = asked_} {
   s_.result.algorithm = asked_.name;
 }
@@ -70,7 +72,7 @@ Search::Phase Search::carry_out(Phase phase) {
       return s_.ended ? Phase::scatter : Phase::round;
     case Phase::round:
       minimize_round();
-      return watch_.stopped() ? Phase::judgement : Phase::verification;
+      return !control_.keep_going() ? Phase::judgement : Phase::verification;
     case Phase::verification:
       if (!verify() && !release()) return Phase::scatter;
       if (++s_.round.number < most_rounds) return Phase::round;
@@ -101,7 +103,7 @@ Optimum Search::finish() {
                                designs_.elsewhere().end());
   s_.result.work = cases().work();
   add(s_.work_elsewhere, s_.result.work);
-  s_.result.seconds = watch_.seconds();
+  s_.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   return std::move(s_.result);
 }
 
@@ -135,8 +137,8 @@ void Search::begin() {
 }
 
 bool Search::interrupted() {
-  if (watch_.go_on()) return false;
-  s_.result.stop = watch_.why();
+  if (control_.keep_going()) return false;
+  s_.result.stop = interruption(control_, designs_.phase());
   s_.result.stop.message += after();
   s_.result.status = Status::stopped;
   s_.ended = true;
@@ -147,7 +149,7 @@ void Search::minimize_round() {
   const auto before = std::pair(s_.result.status, s_.result.stop);
   designs_.begin("the search");
   minimize_once();
-  if (watch_.stopped()) return;
+  if (!control_.keep_going()) return;
   if (s_.result.status == Status::failed && best().value == s_.stuck_value &&
       s_.result.stop.reason != reasons::objective_failed)
     std::tie(s_.result.status, s_.result.stop) = before;  // the optimum is still that of the round before
@@ -170,7 +172,7 @@ void Search::minimize_once() {
   Ends by = Ends::no;
   options.progress = [&](const MinimizeProgress&) {
     by = convergence.test();
-    return watch_.go_on() && by == Ends::no;
+    return control_.keep_going() && by == Ends::no;
   };
   MinimizeResult found = minimize(problem, y, options);
   if (found.reason != MinimizeReason::objective_failed && interrupted()) return;

@@ -2,6 +2,7 @@
 // The search of optimum(): rounds of an algorithm, each followed by new responses at its best design, until
 // the first-order conditions of a minimum hold there. Not installed.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/certificate/multipliers.hpp>
 #include <arcslip/optimize/evaluation/design_evaluations.hpp>
 #include <arcslip/optimize/nlopt/minimize.hpp>
@@ -150,7 +151,8 @@ class Search {
   const OptimumOptions& options_;
   const bool limited_;
   const Algorithm asked_;  // requested
-  Watch watch_;
+  const control::Control control_;
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   DesignEvaluations designs_;
   SearchState s_;
   bool is_part_ = false;  // of another search, which checks the window itself

@@ -76,7 +76,7 @@ bool Search::certify_best() {
   describe();
   s_.result.certificate = certify(
       cases(), space().lower(), space().upper(), designs_.formulation().active(),
-      [this] { return designs_.formulation().margin(); }, [this] { return watch_.go_on(); });
+      [this] { return designs_.formulation().margin(); }, control_);
   return !interrupted() && passed_lower();
 }
 
@@ -138,7 +138,7 @@ bool Search::find_feasible() {
   designs_.begin("the search for a feasible design");
   const std::string exceeds = space().text(best().design);
   for (int k = 0; k < space().attempts() + space().samples() && best().excess > 0; ++k) {
-    if (!watch_.go_on()) return false;
+    if (!control_.keep_going()) return false;
     designs_.evaluate(k < space().attempts() ? space().attempt(k) : space().sample(k - space().attempts()),
                       true);
   }
@@ -179,20 +179,21 @@ Optimum Search::search_from(const Beginning& beginning) {
   options.starts = 1;
   s_.ended_near.reset();
   std::exception_ptr thrown;
+  const control::Control of_part = control_.child();
   options.progress = [&](OptimumProgress now) {
     now.evaluations += static_cast<int>(count() + designs_.elsewhere().size());
     now.best = std::min(now.best, best().value);
-    now.phase = watch_.phase();
+    now.phase = designs_.phase();
     try {
-      if (options_.progress && !options_.progress(now)) watch_.stop();
+      if (options_.progress) options_.progress(now);
     } catch (...) {
       thrown = std::current_exception();
-      watch_.stop();
+      of_part.stop();
     }
     if (!limited_ && !s_.ended_near) s_.ended_near = known_minimum(now.design, now.amplitude);
-    return !watch_.stopped() && !s_.ended_near;
+    if (s_.ended_near) of_part.stop();
   };
-  options.go_on = [this] { return watch_.go_on(); };
+  options.control = of_part;
   Search part(there, problem_, options);
   part.is_part_ = true;
   Optimum found = part.run();
@@ -261,13 +262,13 @@ bool Search::look_elsewhere(bool at_minimum) {
   for (const Beginning& each : all) {
     if (interrupted()) break;
     const Optimum found = search_from(each);
-    if (!watch_.stopped()) count_start(found);
+    if (control_.keep_going()) count_start(found);
     if (!found.feasible || found.design.empty() || !(found.amplitude < least)) continue;
     least = found.amplitude;
     lower = found.design;
     s_.led_on_from_none = found.status != Status::complete && !s_.ended_near;
   }
-  if (lower.empty() || watch_.stopped()) return false;
+  if (lower.empty() || !control_.keep_going()) return false;
   designs_.evaluate(lower, true);
   if (!std::isfinite(cases().value())) return false;
   note("the search reached " + space().text(here) +
@@ -288,7 +289,7 @@ std::vector<std::vector<double>> Search::lowest_elsewhere() {
   for (int k = 0; k < space().samples(); ++k) samples.push_back(space().sample(k));
   for (const std::vector<double>& design : samples) {
     if (static_cast<int>(count()) >= options_.evaluations) break;
-    if (!watch_.go_on()) return {};
+    if (!control_.keep_going()) return {};
     designs_.evaluate(design, true);
     if (std::isfinite(cases().value()) && designs_.formulation().excess() == 0)
       found.push_back({design, cases().value()});

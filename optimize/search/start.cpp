@@ -55,7 +55,7 @@ SearchStart find_start(DesignEvaluations& designs, const std::vector<double>& gi
       start.found = true;
       return start;
     }
-    if (!designs.watch().go_on()) break;
+    if (!designs.control().keep_going()) break;
   }
   start.design = given;
   return start;

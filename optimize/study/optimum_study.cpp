@@ -3,8 +3,8 @@
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/control/ordered_parallel_for.hpp>
 #include <arcslip/optimize/evaluation/design_space.hpp>
+#include <arcslip/optimize/evaluation/interruption.hpp>
 #include <arcslip/optimize/evaluation/scaled_parameter.hpp>
-#include <arcslip/optimize/evaluation/watch.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +28,11 @@ double rounded(double value) {
 }
 
 // The frequency responses at a multiple of the optimum, if the parameters may have it.
-std::vector<observables::ResponseBranch> responses_at_multiple(
-    scene::Scene scene, const OptimumProblem& problem, const std::vector<double>& design, double factor,
-    const observables::ProgressCallback& progress) {
+std::vector<observables::ResponseBranch> responses_at_multiple(scene::Scene scene,
+                                                               const OptimumProblem& problem,
+                                                               const std::vector<double>& design,
+                                                               double factor,
+                                                               const control::Control& control) {
   std::vector<std::pair<std::string, double>> set;
   try {
     for (std::size_t k = 0; k < design.size(); ++k) {
@@ -42,7 +44,7 @@ std::vector<observables::ResponseBranch> responses_at_multiple(
     return {};
   }
   auto branches =
-      observables::frequency_response(scene, {problem.frequency_from, problem.frequency_to}, progress);
+      observables::frequency_response(scene, {problem.frequency_from, problem.frequency_to}, control);
   for (auto& branch : branches) branch.set = set;
   return branches;
 }
@@ -96,97 +98,91 @@ std::vector<CaseCurves> cases_shown(const scene::Scene& scene, const OptimumProb
 }
 
 std::vector<CaseCurves> curves_of_cases(const scene::Scene& scene, const OptimumProblem& problem,
-                                        const Optimum& optimum,
-                                        const observables::ProgressCallback& progress) {
+                                        const Optimum& optimum, const control::Control& control) {
   std::vector<CaseCurves> all;
   for (CaseCurves curves : cases_shown(scene, problem, optimum.cases)) {
-    if (!progress({})) break;
+    if (!control.keep_going()) break;
     const LoadCaseResult& each = optimum.cases[curves.of];
     const scene::Scene in_case =
         curves.all_places ? with_values(scene, each) : scene_of(scene, problem, each);
-    if (problem.over.size() == 1) curves.peaks = curves_of_peaks(in_case, problem, progress);
-    curves.responses = responses_at_multiple(in_case, problem, optimum.design, 1, progress);
+    if (problem.over.size() == 1) curves.peaks = curves_of_peaks(in_case, problem, control);
+    curves.responses = responses_at_multiple(in_case, problem, optimum.design, 1, control);
     all.push_back(std::move(curves));
   }
   return all;
 }
 
-// Reports progress and the current phase. False stops for good.
+// Reports progress and the current phase.
 class Teller {
  public:
-  Teller(const observables::ProgressCallback& progress, const scene::Scene& scene, const char* item)
-      : progress_(progress), unit_(scene::to_rad_per_s(scene.frequency_unit)) {
+  Teller(const control::Control& control, const scene::Scene& scene, const char* item)
+      : control_(control), unit_(scene::to_rad_per_s(scene.frequency_unit)) {
     reported_.item = item;
     reported_.share_done = std::numeric_limits<double>::quiet_NaN();
     reported_.counted = "evaluations";
-    reported_.phase = "the initial design";
+    begin("the initial design");
   }
 
-  void begin(const char* phase) { reported_.phase = phase; }
+  void begin(const char* phase) {
+    reported_.phase = phase;
+    control_.report(reported_);
+  }
   const char* phase() const { return reported_.phase; }
 
-  bool tell(const OptimumProgress& now) {
+  void tell(const OptimumProgress& now) {
     reported_.points = now.evaluations;
     reported_.counted = now.evaluations == 1 ? "evaluation" : "evaluations";
     reported_.frequency = now.omega / unit_;
     reported_.best = std::isfinite(now.best) ? now.best : observables::no_value;
     reported_.phase = now.phase;
-    return again();
+    control_.report(reported_);
   }
   // Of a curve of optima. share: of its way.
-  bool tell(long points, const OptimumPoint& now, double share) {
+  void tell(long points, const OptimumPoint& now, double share) {
     reported_.points = points;
     reported_.counted = "points";
     reported_.frequency = now.response.omega / unit_;
     reported_.best = now.amplitude;
     reported_.phase = "the curve";
     reported_.share_done = share;
-    return again();
+    control_.report(reported_);
   }
-  bool again() {
-    go_on = go_on && (!progress_ || progress_(reported_));
-    return go_on;
-  }
-
-  bool go_on = true;
 
  private:
-  const observables::ProgressCallback& progress_;
+  const control::Control control_;
   double unit_;
-  observables::Progress reported_;
+  control::Progress reported_;
 };
 
-// Adds the curves of figures and the direct method, as long as the watch allows; otherwise the result is
-// not complete.
-void add_curves(OptimumResult& result, const scene::Scene& with, const OptimumExtent& extent, Watch& watch,
-                Teller& teller) {
-  const observables::ProgressCallback ask = [&](const observables::Progress&) { return watch.go_on(); };
+// Adds the curves of figures and the direct method, until the control ends; the result is then not complete.
+void add_curves(OptimumResult& result, const scene::Scene& with, const OptimumExtent& extent,
+                const control::Control& control, Teller& teller) {
+  const control::Control quiet = control.quiet();
   const auto begin = [&](const char* phase) {
-    watch.begin(phase);
-    teller.begin(phase);
+    if (control.keep_going()) teller.begin(phase);
   };
   const bool bounded = std::isfinite(result.optimum.amplitude);
   const bool limited = !result.problem.limits.empty() || !result.problem.linear_limits.empty();
   if (extent.curves && result.has_cases() && bounded) {
     begin("the curves of the cases");
-    result.curves = curves_of_cases(with, result.problem, result.optimum, ask);
+    result.curves = curves_of_cases(with, result.problem, result.optimum, quiet);
   }
   if (!result.has_cases() && result.problem.over.size() == 1 && !limited) {
     begin("the direct method");
-    result.direct = direct_optimum(with, result.problem, ask);
+    result.direct = direct_optimum(with, result.problem, quiet);
   }
   begin("the responses at the optimum");
   for (const double factor : around)
-    if (!result.has_cases() && bounded && (factor == 1 || extent.alone) && watch.go_on()) {
-      auto more = responses_at_multiple(with, result.problem, result.optimum.design, factor, ask);
+    if (!result.has_cases() && bounded && (factor == 1 || extent.alone) && control.keep_going()) {
+      auto more = responses_at_multiple(with, result.problem, result.optimum.design, factor, quiet);
       std::move(more.begin(), more.end(), std::back_inserter(result.responses));
     }
 }
 
 // A study that was ended early is not complete, whatever the result of its search.
-void end_early(OptimumResult& result, const Watch& watch) {
+void end_early(OptimumResult& result, const observables::Stop& why) {
   const std::string before = result.stop.message;
-  result.stop = watch.why();
+  result.stop = why;
   result.stop.message += "; of the search: " + before;
   result.status = observables::Status::stopped;
 }
@@ -274,39 +270,40 @@ void check_limits(const scene::Scene& scene, const OptimumProblem& problem) {
 }
 
 OptimumResult optimum_study(const scene::Scene& given, const OptimumSettings& settings,
-                            const observables::ProgressCallback& progress, const OptimumExtent& extent) {
+                            const control::Control& control, const OptimumExtent& extent) {
   scene::Scene scene = given;
   const std::size_t load_cases =
       std::max<std::size_t>(1, settings.problem.cases.size()) * (1 + 2 * settings.problem.scatter.size());
-  scene.threads.count = studies::threads_for_each(extent.threads, load_cases);
-  Teller teller(progress, scene, "search");
+  scene.threads.count = control::threads_for_each(extent.threads, load_cases);
+  Teller teller(control, scene, "search");
   OptimumOptions options = options_of(settings.search);
   options.threads = extent.threads;
-  options.progress = [&](const OptimumProgress& now) { return teller.tell(now); };
-  options.go_on = [&] { return teller.again(); };
+  options.progress = [&](const OptimumProgress& now) { teller.tell(now); };
+  options.control = control;
   OptimumResult result;
   result.problem = with_distinct_cases(settings.problem);
-  Watch watch(options.seconds, options.go_on);
+  const control::Control of_study = control.until(options.seconds);
   result.optimum = optimum(scene, result.problem, options);
   result.status = result.optimum.status;
   result.stop = result.optimum.stop;
-  watch.begin(teller.phase());
-  if (watch.go_on() && !result.optimum.design.empty()) add_curves(result, scene, extent, watch, teller);
-  if (watch.stopped() && result.status == observables::Status::complete) end_early(result, watch);
+  if (of_study.keep_going() && !result.optimum.design.empty())
+    add_curves(result, scene, extent, of_study, teller);
+  if (!of_study.keep_going() && result.status == observables::Status::complete)
+    end_early(result, interruption(of_study, teller.phase()));
   return result;
 }
 
 OptimumCurveResult optimum_curve_study(const scene::Scene& scene, const OptimumSettings& settings,
-                                       const observables::ProgressCallback& progress) {
-  Teller teller(progress, scene, "curve");
+                                       const control::Control& control) {
+  Teller teller(control, scene, "curve");
   const ScaledParameter along(settings.along->lower, settings.along->upper);
   const double from = along.scaled(along.lower), to = along.scaled(along.upper);
   long count = 0;
   OptimumCurveOptions options{.search = options_of(settings.search), .seconds = settings.search.seconds};
-  options.search.progress = [&](const OptimumProgress& now) { return teller.tell(now); };
-  options.search.go_on = [&] { return teller.again(); };
+  options.search.progress = [&](const OptimumProgress& now) { teller.tell(now); };
+  options.search.control = control;
   options.progress = [&](const OptimumPoint& now) {
-    return teller.tell(++count, now, (along.scaled(now.along) - from) / (to - from));
+    teller.tell(++count, now, (along.scaled(now.along) - from) / (to - from));
   };
   OptimumCurveResult result;
   result.problem = settings.problem;

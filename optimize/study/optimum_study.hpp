@@ -3,6 +3,7 @@
 // the optimum.
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/curve/optimum_curve.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -97,11 +98,10 @@ struct OptimumExtent {
 /// The search, over distinct cases. progress: called throughout, in all phases (`phase`), with the number of
 /// evaluations (`points`) and the lowest amplitude (`best`) so far; false stops. Throws as optimum() does.
 OptimumResult optimum_study(const scene::Scene& scene, const OptimumSettings& settings,
-                            const observables::ProgressCallback& progress = {},
-                            const OptimumExtent& extent = {});
+                            const control::Control& control = {}, const OptimumExtent& extent = {});
 
 /// The same for settings with "along": the curve of optima. Throws as optimum_curve() does.
 OptimumCurveResult optimum_curve_study(const scene::Scene& scene, const OptimumSettings& settings,
-                                       const observables::ProgressCallback& progress = {});
+                                       const control::Control& control = {});
 
 }  // namespace arcslip::optimize

@@ -9,6 +9,7 @@
 #include <arcslip/results/table_writer.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/presentation/columns.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
@@ -118,17 +119,18 @@ std::pair<std::vector<std::string>, std::vector<std::string>> remarks(const Resu
   return {all.early_ends, all.doubts};
 }
 
-void compute(const scene::Scene& scene, const std::vector<std::size_t>& which, const Control& control,
-             scene::RunOptions options, results::Collector& collector) {
-  bool go_on = true;
-  options.progress = [&](const results::Progress& now) { return go_on = control.progress(now); };
-  observables::prepare(scene, control.stop);
+void compute(const scene::Scene& scene, const std::vector<std::size_t>& which,
+             const control::Control& control, studies::RunOptions options, results::Collector& collector) {
+  options.control = control;
+  observables::prepare(scene, control);
   std::vector<results::Schema> schemas;
   for (const std::size_t i : which)
-    schemas.push_back(scene.studies[i].type->schema(scene, scene.studies[i], options));
+    schemas.push_back(studies::kind_of(*scene.studies[i].type).schema(scene, scene.studies[i], options));
   collector.begin(studies::header(scene), schemas);
-  for (std::size_t k = 0; k < which.size() && go_on; ++k)
-    scene.studies[which[k]].type->run(scene, scene.studies[which[k]], options, k, collector);
+  for (std::size_t k = 0; k < which.size() && control.keep_going(); ++k) {
+    const scene::Study& study = scene.studies[which[k]];
+    studies::kind_of(*study.type).run(scene, study, options, k, collector);
+  }
   collector.finish();
   for (results::Result& result : collector.results.results)
     for (results::Rows& rows : result.tables) mark_missing(rows);
@@ -139,11 +141,11 @@ nb::tuple run(const scene::Scene& scene, const std::vector<std::size_t>& which, 
               int threads, const nb::object& report) {
   for (const std::size_t i : which) static_cast<void>(scene.studies.at(i));
   results::Collector collector;
-  scene::RunOptions options;
+  studies::RunOptions options;
   options.coefficients = coefficients;
   options.threads = threads;
-  const auto ended_by =
-      supervised(report, [&](const Control& control) { compute(scene, which, control, options, collector); });
+  const auto ended_by = supervised(
+      report, [&](const control::Control& control) { compute(scene, which, control, options, collector); });
   nb::object error = ended_by ? nb::borrow(ended_by->value()) : nb::none();
   return nb::make_tuple(std::move(collector.results), error);
 }

@@ -30,17 +30,17 @@ using scene::Scene;
 using scene::file::Member;
 using scene::file::Node;
 
-/// Calls read(stop), which Ctrl-C ends.
+/// Calls read(control), which Ctrl-C ends.
 template <class Read>
 Scene read_supervised(const Read& read) {
   std::optional<Scene> scene;
-  if (auto ended_by = supervised(nb::none(), [&](const Control& control) { scene = read(control.stop); }))
+  if (auto ended_by = supervised(nb::none(), [&](const control::Control& control) { scene = read(control); }))
     throw nb::python_error(std::move(*ended_by));
   return *std::move(scene);
 }
 
 Scene read_file(const std::string& path) {
-  return read_supervised([&](const auto& stop) { return scene::read_file(path, catalogue(), stop); });
+  return read_supervised([&](const auto& control) { return scene::read_file(path, catalogue(), control); });
 }
 
 Scene read(const std::string& text, const std::string& folder, const nb::dict& files) {
@@ -51,7 +51,7 @@ Scene read(const std::string& text, const std::string& folder, const nb::dict& f
         {nb::cast<std::string>(path), std::make_shared<const std::string>(bytes.c_str(), bytes.size())});
   }
   return read_supervised(
-      [&](const auto& stop) { return scene::read(text, catalogue(), folder, std::move(known), stop); });
+      [&](const auto& control) { return scene::read(text, catalogue(), folder, std::move(known), control); });
 }
 
 /// The content of the files that it names, by their paths.
@@ -124,7 +124,7 @@ void add_study(const scene::StudyType& type, Scene& scene, std::vector<Member>& 
   while (
       std::any_of(scene.studies.begin(), scene.studies.end(), [&](const auto& s) { return s.name == name; }))
     name += "_2";
-  scene.studies.push_back({name, &type, type.defaults(), {}});
+  scene.studies.push_back({name, &type, type.settings().defaults(), {}});
   const auto is_given = [&](const std::string& key) {
     return std::any_of(keys.begin(), keys.end(), [&](const Member& member) { return member.key == key; });
   };

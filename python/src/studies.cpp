@@ -6,6 +6,7 @@
 #include <arcslip/scene/format/json_schema.hpp>
 #include <arcslip/scene/key.hpp>
 #include <arcslip/studies/catalogue.hpp>
+#include <arcslip/studies/study_kind.hpp>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
@@ -64,7 +65,7 @@ nb::dict as_dict(const scene::Key& key) {
 
 nb::list kinds() {
   nb::list all;
-  for (const scene::StudyType* type : catalogue().studies) {
+  for (const auto& type : catalogue().studies) {
     nb::list keys;
     for (const scene::Key& key : type->keys()) keys.append(as_dict(key));
     nb::dict kind;
@@ -72,7 +73,7 @@ nb::list kinds() {
     kind["verb"] = type->verb();
     kind["help"] = type->help();
     kind["keys"] = keys;
-    kind["takes_coefficients"] = type->takes_coefficients();
+    kind["takes_coefficients"] = studies::kind_of(*type).takes_coefficients();
     all.append(kind);
   }
   return all;

@@ -1,5 +1,7 @@
 #include "supervised.hpp"
 
+#include <arcslip/control/interruptible.hpp>
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -15,7 +17,7 @@ namespace {
 
 constexpr std::chrono::milliseconds between_polls{50};
 
-nb::dict as_dict(const results::Progress& now) {
+nb::dict as_dict(const control::Progress& now) {
   nb::dict all;
   all["branch"] = now.branch;
   all["branches"] = now.branches;
@@ -37,12 +39,18 @@ struct Shared {
   std::mutex mutex;
   std::condition_variable changed;
   bool finished = false;
-  std::optional<results::Progress> latest;  // that has not been reported
+  std::optional<control::Progress> latest;  // that has not been reported
   std::exception_ptr failure;
 };
 
+/// Factorizations that nobody waits for any more; the process joins them when it exits.
+control::AbandonedThreads& abandoned() {
+  static control::AbandonedThreads threads;
+  return threads;
+}
+
 /// Lets Python handle its signals, and reports. Called with the interpreter's lock.
-void poll(Shared& shared, const nb::object& report, const std::optional<results::Progress>& latest) {
+void poll(Shared& shared, const nb::object& report, const std::optional<control::Progress>& latest) {
   if (PyErr_CheckSignals() != 0) throw nb::python_error();
   if (!latest || report.is_none()) return;
   if (report(as_dict(*latest)).is(nb::bool_(false))) shared.stop = true;
@@ -51,14 +59,15 @@ void poll(Shared& shared, const nb::object& report, const std::optional<results:
 }  // namespace
 
 std::optional<nb::python_error> supervised(const nb::object& report,
-                                           const std::function<void(const Control&)>& work) {
+                                           const std::function<void(const control::Control&)>& work) {
   Shared shared;
-  const Control control{[&] { return shared.stop.load(); },
-                        [&](const results::Progress& now) {
-                          const std::lock_guard lock(shared.mutex);
-                          shared.latest = now;
-                          return !shared.stop;
-                        }};
+  const control::Control control({.report =
+                                      [&](const control::Progress& now) {
+                                        const std::lock_guard lock(shared.mutex);
+                                        shared.latest = now;
+                                      },
+                                  .flag = &shared.stop,
+                                  .abandoned = &abandoned()});
   std::optional<nb::python_error> ended_by;
   {
     const nb::gil_scoped_release released;

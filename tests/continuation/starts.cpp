@@ -1,5 +1,6 @@
 // The first point of a branch from guesses that may be far from it.
 #include "catch.hpp"
+#include "controls.hpp"
 #include "random.hpp"
 #include "textbook_systems.hpp"
 
@@ -127,11 +128,13 @@ TEST_CASE("a caller or a time limit ends the search for a first point, and the b
   const Start start{.u = Vector{{0.3}}, .p = Vector{{0.0}}};
   Options options{.lower = -1, .upper = 1};
   long asked = 0, last = 5;
-  options.go_on = [&] { return ++asked != last; };
+  const auto ask = [&] { return ++asked != last; };
+  options.control = controls::polled(ask);
   const Branch stopped = trace(none, start, options);
   CHECK(stopped.stop.reason == StopReason::user);
   CHECK(asked == last);
   asked = 0, last = -1;
+  options.control = controls::polled(ask);
   const Branch failed = trace(none, start, options);
   CHECK(failed.stop.reason == StopReason::start_failed);
   CHECK(asked > 5);

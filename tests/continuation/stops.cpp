@@ -1,6 +1,7 @@
 // One test for each StopReason.
 
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 
@@ -276,17 +277,17 @@ TEST_CASE("user: a trace is asked whether to go on before each attempt, where al
   const auto problem = one_equation([](In u, In p, Out F) { F[0] = u[0] - std::sqrt(0.7 - p[0]); });
   Options options = window(0, 2);
   long asked = 0;
-  options.go_on = [&] { return ++asked > 0; };
+  options.control = controls::polled([&] { return ++asked > 0; });
   const Branch whole = trace(problem, at(std::sqrt(0.7), 0), options);
   CHECK(asked >= whole.counts.points - 1 + whole.counts.rejected_steps);
   const long last = asked;
   asked = 0;
-  options.go_on = [&] { return ++asked < last; };
+  options.control = controls::polled([&] { return ++asked < last; });
   const Branch stopped = trace(problem, at(std::sqrt(0.7), 0), options);
   CHECK(stopped.stop.reason == StopReason::user);
   CHECK(stopped.points.size() == whole.points.size());
   CHECK(asked == last);
-  options.go_on = [] { return false; };
+  options.control = controls::stopped();
   CHECK(trace(problem, at(std::sqrt(0.7), 0), options).points.size() == 1);
 }
 

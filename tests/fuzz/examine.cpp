@@ -2,6 +2,7 @@
 #include "environment.hpp"
 
 #include "catalogue.hpp"
+#include "controls.hpp"
 #include "csv_text.hpp"
 
 #include <arcslip/analyses/curves/curves.hpp>
@@ -216,12 +217,12 @@ class Examination {
     std::vector<observables::ResponseBranch> branches;
     try {
       long points = 0;
-      const auto compute = [](const studies::Case& at, const observables::ProgressCallback& tell) {
-        return observables::frequency_response(at.scene, window(at.scene.studies.front()), tell);
+      const auto compute = [](const studies::Case& at, const control::Control& of_case) {
+        return observables::frequency_response(at.scene, window(at.scene.studies.front()), of_case);
       };
       branches = studies::for_each<observables::ResponseBranch>(
           s, s.studies.front().for_each, compute,
-          [&](const observables::Progress&) { return ++points % most_points != 0; });
+          controls::polled([&] { return ++points % most_points != 0; }));
     } catch (const std::runtime_error& error) {
       return check_message(error.what());
     }

@@ -217,11 +217,11 @@ TEST_CASE(
     CHECK(late.design[0] == Approx(50).epsilon(1e-12));
     for (const bool throws : {false, true}) {
       int calls = 0;
-      optimize::OptimumOptions options;
+      optimize::OptimumOptions options{.control = control::Control(control::Sources())};
       options.progress = [&](const optimize::OptimumProgress&) {
-        if (++calls < 4) return true;
+        if (++calls < 4) return;
         if (throws) throw std::runtime_error("disk full");
-        return false;
+        options.control.stop();
       };
       const auto found = optimize::optimum(s, problem, options);
       CHECK(found.stop.reason == (throws ? optimize::reasons::objective_failed : optimize::reasons::user));

@@ -1,6 +1,7 @@
 // How far the harmonics left out move an optimum, next to searches with more harmonics.
 
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "optimize/paper_optimum.hpp"
 #include "optimize/row.hpp"
@@ -117,5 +118,5 @@ TEST_CASE("a stop in the middle of the estimate leaves it unknown") {
   cases.trace(std::vector{3.09});
   const auto balance = optimize::balance(cases, {&lower, 1}, {&upper, 1}, {});
   CHECK(optimize::design_estimate(cases, balance).change.size() == 1);
-  CHECK(optimize::design_estimate(cases, balance, [] { return false; }).change.empty());
+  CHECK(optimize::design_estimate(cases, balance, controls::stopped()).change.empty());
 }

@@ -2,6 +2,7 @@
 
 #include "catch.hpp"
 #include "contains.hpp"
+#include "controls.hpp"
 #include "size.hpp"
 
 #include "lib/hbm/scenes.hpp"
@@ -12,7 +13,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,13 +26,22 @@ namespace {
 
 const optimize::OptimumSettings one_load{.problem = {{{"damper.normal_load", 0.1, 100}}, 18, 22}};
 
+using Asked = std::function<bool(const std::string& phase)>;
+
+// Polled with the phase that was reported last: false stops.
+control::Control polled(const Asked& asked) {
+  const auto phase = std::make_shared<std::string>();
+  const auto see = [phase](const control::Progress& now) {
+    *phase = now.phase;
+    return true;
+  };
+  return controls::reporting(see, controls::polled([=] { return asked(*phase); }));
+}
+
 // How often each phase asks, where nothing stops it.
 std::map<std::string, long> asked(const scene::Scene& s, const optimize::OptimumSettings& settings) {
   std::map<std::string, long> asked;
-  optimize::optimum_study(s, settings, [&](const observables::Progress& now) {
-    ++asked[now.phase];
-    return true;
-  });
+  optimize::optimum_study(s, settings, polled([&](const std::string& phase) { return ++asked[phase] > 0; }));
   return asked;
 }
 
@@ -46,11 +58,11 @@ TEST_CASE("every phase of a search asks at every step of a response, and a stop 
     for (const long last : {1L, count / 2, count}) {
       long here = 0, after = 0;
       const auto result =
-          optimize::optimum_study(s, one_load, [&, name = phase](const observables::Progress& now) {
-            if (here >= last) ++after;
-            if (now.phase == name) ++here;
-            return here < last;
-          });
+          optimize::optimum_study(s, one_load, polled([&, name = phase](const std::string& now) {
+                                    if (here >= last) ++after;
+                                    if (now == name) ++here;
+                                    return here < last;
+                                  }));
       CAPTURE(last);
       CHECK(after == 0);  // never asked again
       CHECK(result.status == observables::Status::stopped);
@@ -71,16 +83,18 @@ TEST_CASE(
   std::vector<std::string> phases;
   long evaluations = 0, fewer = 0;
   double best = HUGE_VAL, rise = 0;
-  const auto result = optimize::optimum_study(s, limited, [&](const observables::Progress& now) {
-    if (phases.empty() || phases.back() != now.phase) phases.emplace_back(now.phase);
-    fewer += now.points < evaluations;
-    evaluations = now.points;
-    if (!std::isnan(now.best)) {
-      rise = std::max(rise, now.best / best - 1);
-      best = now.best;
-    }
-    return true;
-  });
+  const auto result =
+      optimize::optimum_study(s, limited, controls::reporting([&](const control::Progress& now) {
+                                if (phases.empty() || phases.back() != now.phase)
+                                  phases.emplace_back(now.phase);
+                                fewer += now.points < evaluations;
+                                evaluations = now.points;
+                                if (!std::isnan(now.best)) {
+                                  rise = std::max(rise, now.best / best - 1);
+                                  best = now.best;
+                                }
+                                return true;
+                              }));
   CHECK(fewer == 0);
   CHECK(rise < 1e-7);  // as much as the tolerance of a limit gains
   CHECK(phases == std::vector<std::string>{"the initial design", "the search", "the verification",
@@ -97,9 +111,9 @@ TEST_CASE("a search over cases asks in its curves, and is not complete without t
   const auto times = asked(s, settings);
   REQUIRE(times.contains("the curves of the cases"));
   long here = 0;
-  const auto result = optimize::optimum_study(s, settings, [&](const observables::Progress& now) {
-    return now.phase != std::string("the curves of the cases") || ++here < 40;
-  });
+  const auto result = optimize::optimum_study(s, settings, polled([&](const std::string& phase) {
+                                                return phase != "the curves of the cases" || ++here < 40;
+                                              }));
   CHECK(result.status == observables::Status::stopped);
   CHECK(result.optimum.status == observables::Status::complete);
   CHECK(contains(result.stop.message, "interrupted in the curves of the cases; of the search: "));
@@ -113,9 +127,8 @@ TEST_CASE("a search that is interrupted far from its best design reports the bes
   optimize::OptimumOptions options;
   options.progress = [&](const optimize::OptimumProgress& now) {
     certifying = now.phase == std::string("the certificate");
-    return true;
   };
-  options.go_on = [&] { return !certifying || ++asked < 200; };
+  options.control = controls::polled([&] { return !certifying || ++asked < 200; });
   const auto cut = optimize::optimum(s, problem, options);
   const auto whole = optimize::optimum(s, problem);
   CHECK(cut.status == observables::Status::stopped);
@@ -128,7 +141,7 @@ TEST_CASE("a search that is interrupted far from its best design reports the bes
 
 TEST_CASE("a stop before the first design leaves no design, and the reason") {
   const auto found = optimize::optimum(scenes::paper(7, 3), {{{"damper.normal_load", 0.1, 100}}, 18, 22},
-                                       {.go_on = [] { return false; }});
+                                       {.control = controls::stopped()});
   CHECK(found.status == observables::Status::stopped);
   CHECK(found.stop.reason == optimize::reasons::user);
 }
@@ -136,9 +149,8 @@ TEST_CASE("a stop before the first design leaves no design, and the reason") {
 TEST_CASE("curves of peaks ask while they look for their beginnings, and are stopped there") {
   const scene::Scene s = scenes::paper(7, 3);
   int asked = 0;
-  const auto branches = observables::resonance_peaks(
-      s, {"damper.normal_load", 0.1, 100, 18, 22},
-      [&](const observables::Progress& now) { return now.points > 0 || ++asked < 5; });
+  const auto branches = observables::resonance_peaks(s, {"damper.normal_load", 0.1, 100, 18, 22},
+                                                     controls::polled([&] { return ++asked < 5; }));
   REQUIRE(branches.size() == 1);
   CHECK(asked == 5);
   CHECK(branches[0].status == observables::Status::stopped);
@@ -150,8 +162,8 @@ TEST_CASE("a curve of optima asks in the search for its first point, and along i
   for (const bool along : {false, true}) {
     optimize::OptimumCurveOptions options;
     int points = 0, asked = 0;
-    options.progress = [&](const optimize::OptimumPoint&) { return ++points > 0; };
-    options.search.go_on = [&] { return along ? points < 3 : ++asked < 20; };
+    options.progress = [&](const optimize::OptimumPoint&) { ++points; };
+    options.search.control = controls::polled([&] { return along ? points < 3 : ++asked < 20; });
     const auto curve = optimize::optimum_curve(s, {{{"damper.normal_load", 0.1, 100}}, 18, 22},
                                                {"force.cosine", 0.5, 2}, options);
     CAPTURE(along, curve.stop.message);
@@ -171,15 +183,14 @@ TEST_CASE("what a callback throws while other starts are looked at ends the sear
     optimize::OptimumOptions throws;
     throws.progress = [&](const optimize::OptimumProgress& now) {
       if (now.evaluations == static_cast<int>(last)) throw std::runtime_error("enough");
-      return true;
     };
     const auto found = optimize::optimum(s, problem, throws);
     CAPTURE(last, found.stop.message);
     CHECK(found.status == observables::Status::failed);
     CHECK(found.stop.message.find("enough") != std::string::npos);
-    optimize::OptimumOptions stops;
+    optimize::OptimumOptions stops{.control = control::Control(control::Sources())};
     stops.progress = [&](const optimize::OptimumProgress& now) {
-      return now.evaluations < static_cast<int>(last);
+      if (now.evaluations >= static_cast<int>(last)) stops.control.stop();
     };
     CHECK(optimize::optimum(s, problem, stops).stop.reason == optimize::reasons::user);
   }

@@ -12,8 +12,8 @@ inline std::vector<arcslip::optimize::OptimumResult> of(const arcslip::scene::Sc
                                                         const arcslip::optimize::OptimumSettings& settings,
                                                         const arcslip::scene::ValueLists& lists) {
   using namespace arcslip;
-  const auto compute = [&](const studies::Case& at, const results::ProgressCallback& progress) {
-    return std::vector{optimize::optimum_study(at.scene, settings, progress, {.alone = at.alone})};
+  const auto compute = [&](const studies::Case& at, const control::Control& control) {
+    return std::vector{optimize::optimum_study(at.scene, settings, control, {.alone = at.alone})};
   };
   return studies::for_each<optimize::OptimumResult>(scene, lists, compute);
 }

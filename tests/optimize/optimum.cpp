@@ -284,8 +284,10 @@ TEST_CASE("limits of evaluations and the callback stop the search with the best 
   CHECK(std::isfinite(few.amplitude));
 
   int calls = 0;
-  OptimumOptions options;
-  options.progress = [&](const optimize::OptimumProgress& p) { return ++calls < 4 && p.best <= p.amplitude; };
+  OptimumOptions options{.control = control::Control(control::Sources())};
+  options.progress = [&](const optimize::OptimumProgress& p) {
+    if (++calls == 4 || p.best > p.amplitude) options.control.stop();
+  };
   const Optimum stopped = optimize::optimum(paper(3, 3), over_load, options);
   CHECK(stopped.status == observables::Status::stopped);
   CHECK(stopped.stop.reason == optimize::reasons::user);
@@ -295,9 +297,8 @@ TEST_CASE("an exception in the middle ends the search with its text and the best
   for (const int last : {1, 4}) {
     int calls = 0;
     OptimumOptions options;
-    options.progress = [&](const optimize::OptimumProgress&) -> bool {
+    options.progress = [&](const optimize::OptimumProgress&) {
       if (++calls == last) throw std::runtime_error("disk full");
-      return true;
     };
     const Optimum found = optimize::optimum(paper(3, 50), over_load, options);
     CHECK(found.status == observables::Status::failed);

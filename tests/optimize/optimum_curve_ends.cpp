@@ -73,8 +73,10 @@ TEST_CASE("a bound that is left where everything comes to stick is no end withou
 
 TEST_CASE("a progress callback, a number of points and a time limit stop the curve") {
   int reported = 0;
-  OptimumCurveOptions options;
-  options.progress = [&](const OptimumPoint&) { return ++reported < 5; };
+  OptimumCurveOptions options{.search = {.control = control::Control(control::Sources())}};
+  options.progress = [&](const OptimumPoint&) {
+    if (++reported == 5) options.search.control.stop();
+  };
   const OptimumCurve by_user = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10}, options);
   CHECK(by_user.status == observables::Status::stopped);
   CHECK(by_user.stop.reason == reasons::user);
@@ -96,7 +98,6 @@ TEST_CASE("what the progress callback throws ends the curve with what there is")
   int reported = 0;
   options.progress = [&](const OptimumPoint&) {
     if (++reported == 4) throw std::runtime_error("enough");
-    return true;
   };
   const OptimumCurve curve = optimum_curve(paper(1, 0), paper_load, {"force.cosine", 0.1, 10}, options);
   CHECK(curve.status == observables::Status::failed);

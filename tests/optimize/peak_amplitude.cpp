@@ -1,6 +1,7 @@
 // The largest amplitude in a window, followed from design to design.
 
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/random_scenes.hpp"
@@ -333,7 +334,7 @@ TEST_CASE("large factors are given up after a stop, and the best design is obser
   const auto model = std::make_shared<const model::Model>(model::build(s));
   long asked = 0, last = 1'000'000;
   PeakAmplitude peaks(model, {model::parameter_index(*model, "d.normal_load")}, {1, 1.4},
-                      [&] { return ++asked < last; });
+                      controls::polled([&] { return ++asked < last; }));
   const optimize::PeakState first = peaks.trace(Design{2.0});
   REQUIRE(first.complete);
   CHECK(asked >= 2 * peaks.work().factorizations);  // before each of two harmonics
@@ -345,7 +346,7 @@ TEST_CASE("large factors are given up after a stop, and the best design is obser
       CAPTURE(follow, more);
       last = 1'000'000;
       PeakAmplitude other(model, {model::parameter_index(*model, "d.normal_load")}, {1, 1.4},
-                          [&] { return ++asked < last; });
+                          controls::polled([&] { return ++asked < last; }));
       other.trace(Design{2.0});
       asked = 0;
       last = more;

@@ -169,8 +169,7 @@ struct Lowest {
 inline Lowest grid(const Search& search, std::uint64_t seed, int designs) {
   Random random(seed + 1000000);
   Lowest lowest;
-  optimize::Watch watch(0, {});
-  optimize::DesignEvaluations evaluations(search.scene, search.problem, watch, false);
+  optimize::DesignEvaluations evaluations(search.scene, search.problem, {}, false);
   for (int i = 0; i < designs; ++i) {
     std::vector<double> design;
     for (const auto& variable : search.problem.over) {

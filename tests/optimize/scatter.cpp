@@ -177,16 +177,17 @@ TEST_CASE("the user and what is thrown end the search for the worst, too") {
   problem.scatter = {{"ks.value", 700, 1400}};
   int calls = 0;
   optimize::OptimumOptions options{.certificate = false};
-  options.progress = [&](const optimize::OptimumProgress&) { return ++calls > 0; };
+  options.progress = [&](const optimize::OptimumProgress&) { ++calls; };
   const Optimum whole = optimize::optimum(tuned(), problem, options);
   REQUIRE(whole.scatter_rounds > 1);
   const int all = calls;
   for (const bool throws : {false, true}) {
+    options.control = control::Control(control::Sources());
     calls = 0;  // the last calls are those of the last search for the worst
     options.progress = [&](const optimize::OptimumProgress&) {
-      if (++calls < all) return true;
+      if (++calls < all) return;
       if (throws) throw std::runtime_error("disk full");
-      return false;
+      options.control.stop();
     };
     const Optimum found = optimize::optimum(tuned(), problem, options);
     CHECK(found.stop.reason == (throws ? optimize::reasons::objective_failed : optimize::reasons::user));

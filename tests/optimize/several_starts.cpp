@@ -140,11 +140,16 @@ TEST_CASE("two dampers on two masses: all starts lead to the one minimum, and so
 TEST_CASE("over one parameter there is one start, and with a time limit the account is of those that ended") {
   CHECK_FALSE(optimize::optimum(scenes::paper(7), {{{"damper.normal_load", 0.1, 100}}, 18, 22}).starts);
   int calls = 0;
+  const control::Control control{control::Sources()};
   const Optimum stopped =
       optimize::optimum(row(2, 2, 5), over_loads(2, 8, 45),
-                        {.certificate = false, .progress = [&](const optimize::OptimumProgress& now) {
-                           return std::string(now.phase) != "the search elsewhere" || ++calls < 60;
-                         }});
+                        {.certificate = false,
+                         .progress =
+                             [&](const optimize::OptimumProgress& now) {
+                               if (std::string(now.phase) == "the search elsewhere" && ++calls == 60)
+                                 control.stop();
+                             },
+                         .control = control});
   CHECK(stopped.status == observables::Status::stopped);
   CHECK(std::isfinite(stopped.amplitude));
   if (stopped.starts) CHECK(stopped.starts->count < optimize::default_starts);

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <utility>
 
@@ -58,7 +57,7 @@ class AllBranches {
       search(f_.window.lower);
       search(f_.window.upper);
     }
-    for (int i = 0; i < f_.limits.searches && !stopped_; ++i) {
+    for (int i = 0; i < f_.limits.searches && f_.control.keep_going(); ++i) {
       const double share = (i + 0.5) / f_.limits.searches;
       const double omega = f_.window.lower + (f_.window.upper - f_.window.lower) * share;
       search(omega);
@@ -201,7 +200,7 @@ class AllBranches {
   }
 
   void follow_ways() {
-    for (; next_ < ways_.size() && !stopped_; ++next_) follow(next_);
+    for (; next_ < ways_.size() && f_.control.keep_going(); ++next_) follow(next_);
   }
 
   void follow(std::size_t k) {
@@ -292,11 +291,11 @@ class AllBranches {
         return true;
       }
       run.course.points.emplace_back(now.arclength, run.observer->observe(now));
-      stopped_ = stopped_ || !f_.at(now.parameter);
-      return !stopped_;
+      f_.at(now.parameter);
+      return f_.control.keep_going();
     };
     const hbm::HbmProblem& problem = *run.known.problem;
-    continuation::Options options = frequency_options(f_.window, f_.steps, f_.go_on);
+    continuation::Options options = frequency_options(f_.window, f_.steps, f_.control);
     options.step.initial = step;
     continuation::Tracer tracer(run.known.problem, start, options, run.monitors, record);
     continuation::Counts counts;
@@ -313,7 +312,6 @@ class AllBranches {
     add(traced, run.known.response.solver);
     run.events = std::move(traced.events);
     run.stop = std::move(traced.stop);
-    stopped_ = stopped_ || run.stop.reason == StopReason::user;
     if (!run.end) return;
     run.course.end_at(run.end->arclength, near_end * (1 + in.norm_u(run.end->x)));
     ResponsePoint& last = run.course.points.back().second;
@@ -358,11 +356,11 @@ class AllBranches {
   // Branches of the first harmonics that no other reaches, by what they have at one frequency.
   void search(double omega) {
     const auto problem = known_.front().problem;
-    if (!problem || stopped_) return;
+    if (!problem || !f_.control.keep_going()) return;
     const Vector p = hbm::parameters_at(*problem, omega);
-    for (const Vector& found : further_responses(problem, p, known_at(omega), f_.go_on)) {
+    for (const Vector& found : further_responses(problem, p, known_at(omega), f_.control)) {
       const std::vector<Vector> known = known_at(omega);
-      if (!stopped_ && !is_full() && index_of(*problem, found, known) == known.size())
+      if (f_.control.keep_going() && !is_full() && index_of(*problem, found, known) == known.size())
         add_isolated(found, omega);
     }
   }
@@ -373,10 +371,10 @@ class AllBranches {
     if (!problem) return;
     const Vector p = hbm::parameters_at(*problem, omega);
     std::vector<Vector> tried;
-    while (!stopped_ && !is_full()) {
+    while (f_.control.keep_going() && !is_full()) {
       std::vector<Vector> known = known_at(omega);
       known.insert(known.end(), tried.begin(), tried.end());
-      const auto found = solution_nearby(*problem, p, known, f_.go_on);
+      const auto found = solution_nearby(*problem, p, known, f_.control);
       if (!found) return;
       tried.push_back(*found);
       add_isolated(*found, omega);
@@ -392,7 +390,7 @@ class AllBranches {
     trace(start, 0, run);
     if (run.stop.reason == StopReason::start_failed || run.course.points.empty()) return;
     const bool is_inside = omega > f_.window.lower && omega < f_.window.upper;
-    if (is_inside && run.stop.reason != StopReason::closed && !stopped_) {
+    if (is_inside && run.stop.reason != StopReason::closed && f_.control.keep_going()) {
       Run back = begin(problem);
       start.direction = -1;
       trace(start, 0, back);
@@ -469,7 +467,6 @@ class AllBranches {
   std::vector<Known> known_;
   std::vector<Way> ways_;
   std::size_t next_ = 0;  // of ways_
-  bool stopped_ = false;
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include <arcslip/analyses/branches/frequency_branch.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
-#include <arcslip/control/progress.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -39,8 +39,8 @@ struct BranchOptions {
   scene::FrequencyUnit unit;
   BranchLimits limits;
   Steps steps = Steps::curve;
-  GoOn go_on;
-  std::function<bool(double omega)> at;  // at each point, for the progress; false stops
+  control::Control control;
+  std::function<void(double omega)> at;  // at each point, for the progress
 };
 
 /// The given branches, which need stability and branch points among their events, and all others. Branches

@@ -112,15 +112,15 @@ void set_end(const continuation::BranchStop& stop, double from, double upper, sc
 }
 
 std::shared_ptr<const hbm::HbmProblem> problem_at(const std::shared_ptr<const model::Model>& model,
-                                                  double omega, double frequency_scale, const GoOn& go_on) {
-  const scene::StopRequest stop = [&] { return !go_on(); };
+                                                  double omega, double frequency_scale,
+                                                  const control::Control& control) {
   try {
-    return scene::interruptible(
-        [model, omega, frequency_scale](const scene::StopRequest&) {
+    return control::interruptible(
+        [model, omega, frequency_scale](const control::Control&) {
           return std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1, frequency_scale, omega);
         },
-        go_on && model->dofs > quick_dofs ? stop : scene::StopRequest(), "");
-  } catch (const scene::Interrupted&) {
+        model->dofs > quick_dofs ? control : control::Control(), "");
+  } catch (const control::Interrupted&) {
     return {};
   }
 }
@@ -135,16 +135,17 @@ bool may_have_several_responses(const model::Model& model) {
   });
 }
 
-std::shared_ptr<const model::Model> model_of(const scene::Scene& scene, scene::StopRequest stop) {
+std::shared_ptr<const model::Model> model_of(const scene::Scene& scene, control::Control control) {
   auto model = std::make_shared<model::Model>(model::build(scene));
-  model->stop = std::move(stop);
+  model->control = std::move(control);
   return model;
 }
 
 std::shared_ptr<const hbm::HbmProblem> problem_of(const ResponseBranch& branch,
                                                   const std::shared_ptr<const model::Model>& model,
-                                                  double omega, double frequency_scale, const GoOn& go_on) {
-  const auto unscaled = problem_at(model, omega, frequency_scale, go_on);
+                                                  double omega, double frequency_scale,
+                                                  const control::Control& control) {
+  const auto unscaled = problem_at(model, omega, frequency_scale, control);
   if (!unscaled) return nullptr;
   const auto& at_first = branch.points.front().unknowns;
   const double size =
@@ -153,8 +154,8 @@ std::shared_ptr<const hbm::HbmProblem> problem_of(const ResponseBranch& branch,
 }
 
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
-                             double frequency_scale, const GoOn& go_on) {
-  const auto found = problem_at(model, omega, frequency_scale, go_on);
+                             double frequency_scale, const control::Control& control) {
+  const auto found = problem_at(model, omega, frequency_scale, control);
   if (!found) {  // without modes, which are not waited for
     constexpr double at_rest = 0;
     return {std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1, frequency_scale, at_rest),
@@ -178,8 +179,8 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
             "degree of freedom, or excite odd harmonics only, with an odd \"period\" of the harmonics, or "
             "let a "
             "contact that sticks hold it, with \"offset\": \"static\""};
-  const auto u = hbm::steady_state(problem, p, go_on);
-  if (!u && go_on && !go_on()) return {problem, {}, "stopped by the caller"};
+  const auto u = hbm::steady_state(problem, p, control);
+  if (!u && !control.keep_going()) return {problem, {}, "stopped by the caller"};
   if (!u) {
     return {
         problem,
@@ -191,7 +192,8 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
   return {problem_with(u->norm()), u, {}};
 }
 
-continuation::Options frequency_options(const FrequencyWindow& window, Steps steps, const GoOn& go_on) {
+continuation::Options frequency_options(const FrequencyWindow& window, Steps steps,
+                                        const control::Control& control) {
   const double width = window.upper - window.lower;
   continuation::Options options;
   options.lower = window.lower;
@@ -207,7 +209,7 @@ continuation::Options frequency_options(const FrequencyWindow& window, Steps ste
       std::max(std::min(options.step.smallest, smallest_step * largest_frequency_step * window.lower / width),
                std::numeric_limits<double>::min());  // also where the window spans hundreds of decades
   options.largest_state = resolvable;
-  options.go_on = go_on;
+  options.control = control;
   return options;
 }
 
@@ -268,13 +270,13 @@ double size_without_elements(const hbm::HbmProblem& problem, const FrequencyWind
 
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record,
-                                 int direction, Steps steps, const GoOn& go_on,
+                                 int direction, Steps steps, const control::Control& control,
                                  const MonitoredEvents& watched, double displacement) {
   const double width = window.upper - window.lower;
-  const FirstResponse first = first_response(model, from, width, go_on);
+  const FirstResponse first = first_response(model, from, width, control);
   if (!first.u) {
     FrequencyBranch none{first.problem, {}};
-    if (go_on && !go_on()) {
+    if (!control.keep_going()) {
       none.branch.stop = {continuation::StopReason::user, 1, 1, "stopped by the caller"};
       return none;
     }
@@ -284,16 +286,16 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
   const auto problem = displacement > 0
                            ? std::make_shared<const hbm::HbmProblem>(*first.problem, displacement)
                            : first.problem;
-  continuation::Options options = frequency_options(window, steps, go_on);
+  continuation::Options options = frequency_options(window, steps, control);
   options.largest_state *= size_without_elements(*problem, window);
   return traced(problem, *first.u, from, options, record, direction, steps, watched);
 }
 
 FrequencyBranch frequency_branch_part(const std::shared_ptr<const hbm::HbmProblem>& problem,
                                       const FrequencyWindow& window, double from, double to, const Vector& u,
-                                      const Record& record, int direction, Steps steps, const GoOn& go_on,
-                                      const MonitoredEvents& watched) {
-  continuation::Options options = frequency_options(window, steps, go_on);
+                                      const Record& record, int direction, Steps steps,
+                                      const control::Control& control, const MonitoredEvents& watched) {
+  continuation::Options options = frequency_options(window, steps, control);
   (to > from ? options.upper : options.lower) = to;
   return traced(problem, u, from, options, record, direction, steps, watched);
 }

@@ -3,6 +3,7 @@
 // model.
 
 #include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/observe.hpp>
 #include <arcslip/stability/stability_request.hpp>
@@ -32,31 +33,27 @@ struct FirstResponse {
   std::string failure;
 };
 
-/// Whether to continue: called throughout all computations. Must stay false once it was false; the
-/// computation is then aborted, and its result is invalid.
-using GoOn = std::function<bool()>;
-
 /// Whether a law of the model may have several responses at one frequency.
 bool may_have_several_responses(const model::Model& model);
 
-/// Of a scene whose matrices are small or reduced (model/reduction_report.hpp). stop: Model::stop.
-std::shared_ptr<const model::Model> model_of(const scene::Scene& scene, scene::StopRequest stop);
+/// Of a scene whose matrices are small or reduced (model/reduction_report.hpp). control: Model::control.
+std::shared_ptr<const model::Model> model_of(const scene::Scene& scene, control::Control control);
 
 /// With the displacement 1 m, and modes, where there are any, about omega; they take seconds for a large
-/// structure, in which go_on is asked. Null after a stop. frequency_scale: of the problem.
+/// structure, in which `control` is asked. Null after its end. frequency_scale: of the problem.
 std::shared_ptr<const hbm::HbmProblem> problem_at(const std::shared_ptr<const model::Model>& model,
                                                   double omega, double frequency_scale,
-                                                  const GoOn& go_on = {});
+                                                  const control::Control& control = {});
 
 /// The same in the displacement of the first point of a branch.
 std::shared_ptr<const hbm::HbmProblem> problem_of(const ResponseBranch& branch,
                                                   const std::shared_ptr<const model::Model>& model,
                                                   double omega, double frequency_scale,
-                                                  const GoOn& go_on = {});
+                                                  const control::Control& control = {});
 
 /// At omega with the model's own parameters. frequency_scale: of the problem.
 FirstResponse first_response(const std::shared_ptr<const model::Model>& model, double omega,
-                             double frequency_scale, const GoOn& go_on = {});
+                             double frequency_scale, const control::Control& control = {});
 
 /// For a branch dominated by rounding errors, with as many rejected as accepted steps: that it is, and the
 /// stiffnesses with too large a ratio. Empty: no doubt. p: of the branch.
@@ -96,22 +93,25 @@ struct MonitoredEvents {
 };
 
 /// Options and monitors of branches over the frequency.
-continuation::Options frequency_options(const FrequencyWindow& window, Steps steps, const GoOn& go_on);
+continuation::Options frequency_options(const FrequencyWindow& window, Steps steps,
+                                        const control::Control& control);
 std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Observer>& observer, Steps steps,
                                                       const MonitoredEvents& watched);
 
-/// Traces from omega = `from` in the window, upwards (direction 1) or downwards (-1). If go_on returns false
+/// Traces from omega = `from` in the window, upwards (direction 1) or downwards (-1). If `control` ends
 /// the branch ends with reason user. displacement: the scale, m; 0: that of the first response.
 FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& model,
                                  const FrequencyWindow& window, double from, const Record& record = {},
-                                 int direction = 1, Steps steps = Steps::curve, const GoOn& go_on = {},
-                                 const MonitoredEvents& watched = {}, double displacement = 0);
+                                 int direction = 1, Steps steps = Steps::curve,
+                                 const control::Control& control = {}, const MonitoredEvents& watched = {},
+                                 double displacement = 0);
 
 /// A part of such a branch, with the steps of the whole window: from a response u of `problem` at
 /// omega = `from`, or one close by, to where the branch reaches omega = `to` or an end of the window.
 FrequencyBranch frequency_branch_part(const std::shared_ptr<const hbm::HbmProblem>& problem,
                                       const FrequencyWindow& window, double from, double to,
                                       const continuation::Vector& u, const Record& record, int direction,
-                                      Steps steps, const GoOn& go_on, const MonitoredEvents& watched);
+                                      Steps steps, const control::Control& control,
+                                      const MonitoredEvents& watched);
 
 }  // namespace arcslip::observables

@@ -4,6 +4,7 @@
 #include <arcslip/analyses/branches/passages.hpp>
 #include <arcslip/continuation/diagrams/deflation.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +85,7 @@ std::vector<Vector> solutions_at(const hbm::HbmProblem& problem, std::span<const
 }
 
 std::optional<Vector> solution_nearby(const hbm::HbmProblem& problem, const Vector& p,
-                                      const std::vector<Vector>& known, const GoOn& go_on) {
+                                      const std::vector<Vector>& known, const control::Control& control) {
   std::vector<Vector> all, guesses{Vector::Zero(problem.size())};
   if (const Vector linear = hbm::linear_response(problem, p); linear.allFinite()) guesses.push_back(linear);
   for (const Vector& each : known) {
@@ -98,7 +99,7 @@ std::optional<Vector> solution_nearby(const hbm::HbmProblem& problem, const Vect
   }
   continuation::DeflationOptions options;
   options.solutions = 1;
-  options.go_on = go_on;
+  options.control = control;
   const auto found = continuation::deflate(problem, p, all, guesses, options);
   return found.empty() ? std::nullopt : std::optional(found.front());
 }
@@ -126,7 +127,7 @@ Vector transferred(const hbm::HbmProblem& from, const Vector& u, const hbm::HbmP
 
 // Those where the branch over the excitation factor through u passes 1.
 std::vector<Vector> on_excitation_branch(const std::shared_ptr<const hbm::HbmProblem>& problem,
-                                         const Vector& p, const Vector& u, const GoOn& go_on) {
+                                         const Vector& p, const Vector& u, const control::Control& control) {
   const int factor = problem->excitation_factor();
   Passages passages(*problem, p, factor);
   continuation::Options options;
@@ -137,7 +138,7 @@ std::vector<Vector> on_excitation_branch(const std::shared_ptr<const hbm::HbmPro
   options.step.relative_parameter = factor_step;
   options.largest_state = resolvable;
   options.points = most_points_over_factor;
-  options.go_on = go_on;
+  options.control = control;
   std::vector monitors{continuation::fold_monitor(), passage_monitor(1)};
   monitors[0].divides_at_kinks = false;
   for (const int direction : {1, -1}) {
@@ -150,15 +151,15 @@ std::vector<Vector> on_excitation_branch(const std::shared_ptr<const hbm::HbmPro
 
 // Solutions of `problem` that are none of those known, nor images of them.
 std::vector<Vector> search_nearby(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& p,
-                                  const std::vector<Vector>& known, const GoOn& go_on) {
+                                  const std::vector<Vector>& known, const control::Control& control) {
   std::vector<Vector> all = known;
   std::vector<bool> is_reached(all.size(), false);  // by the branch over the excitation through another
-  const auto stopped = [&] { return go_on && !go_on(); };
+  const auto stopped = [&] { return !control.keep_going(); };
   for (int k = 0; k < most_proposals && !stopped(); ++k) {
     for (std::size_t i = 0; i < all.size() && !stopped(); ++i) {
       if (is_reached[i]) continue;
       is_reached[i] = true;
-      for (Vector& u : on_excitation_branch(problem, p, Vector(all[i]), go_on)) {
+      for (Vector& u : on_excitation_branch(problem, p, Vector(all[i]), control)) {
         const std::size_t at = index_of(*problem, u, all);
         if (at == all.size()) {
           all.push_back(std::move(u));
@@ -167,7 +168,7 @@ std::vector<Vector> search_nearby(const std::shared_ptr<const hbm::HbmProblem>& 
         is_reached[at] = true;
       }
     }
-    auto other = solution_nearby(*problem, p, all, go_on);
+    auto other = solution_nearby(*problem, p, all, control);
     if (!other || index_of(*problem, *other, all) < all.size()) break;
     all.push_back(std::move(*other));
     is_reached.push_back(false);
@@ -179,14 +180,14 @@ std::vector<Vector> search_nearby(const std::shared_ptr<const hbm::HbmProblem>& 
 }  // namespace
 
 std::vector<Vector> further_responses(const std::shared_ptr<const hbm::HbmProblem>& problem, const Vector& p,
-                                      const std::vector<Vector>& known, const GoOn& go_on) {
+                                      const std::vector<Vector>& known, const control::Control& control) {
   const auto few = proposing(problem);
-  if (few == problem) return search_nearby(problem, p, known, go_on);
+  if (few == problem) return search_nearby(problem, p, known, control);
   std::vector<Vector> proposed, all = known;
   for (const Vector& u : known)
     if (auto start = hbm::response_near(*few, p, transferred(*problem, u, *few)))
       proposed.push_back(std::move(*start));
-  for (const Vector& u : search_nearby(few, p, proposed, go_on))
+  for (const Vector& u : search_nearby(few, p, proposed, control))
     if (auto found = hbm::response_near(*problem, p, transferred(*few, u, *problem));
         found && index_of(*problem, *found, all) == all.size())
       all.push_back(std::move(*found));

@@ -3,6 +3,7 @@
 // search by deflation (continuation/diagrams/deflation.hpp), and on branches over the excitation.
 
 #include <arcslip/analyses/branches/frequency_branch.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/results/response.hpp>
 
@@ -32,7 +33,7 @@ std::vector<continuation::Vector> solutions_at(const hbm::HbmProblem& problem,
 std::optional<continuation::Vector> solution_nearby(const hbm::HbmProblem& problem,
                                                     const continuation::Vector& p,
                                                     const std::vector<continuation::Vector>& known,
-                                                    const GoOn& go_on);
+                                                    const control::Control& control);
 
 /// Responses at p that are none of those known, nor images of them, proposed with three times the harmonics
 /// of the excitation: where the branches over the excitation factor, from 1/1000 to 1000, through those known
@@ -40,6 +41,6 @@ std::optional<continuation::Vector> solution_nearby(const hbm::HbmProblem& probl
 std::vector<continuation::Vector> further_responses(const std::shared_ptr<const hbm::HbmProblem>& problem,
                                                     const continuation::Vector& p,
                                                     const std::vector<continuation::Vector>& known,
-                                                    const GoOn& go_on);
+                                                    const control::Control& control);
 
 }  // namespace arcslip::observables

@@ -2,6 +2,7 @@
 
 #include <arcslip/analyses/branches/branch_description.hpp>
 #include <arcslip/analyses/branches/stop_reason.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/reasons.hpp>
 
@@ -53,11 +54,11 @@ std::shared_ptr<const model::Model> OverParameter::at(double value) const {
 }
 
 OverParameter over_parameter(scene::Scene scene, const std::string& over, double from, double to,
-                             scene::StopRequest stop) {
+                             control::Control control) {
   scene::set(scene, over, to);
   scene::set(scene, over, from);
   model::Model model = model::build(scene);
-  model.stop = std::move(stop);
+  model.control = std::move(control);
   OverParameter result;
   result.name = over;
   result.index = model::parameter_index(model, over);

@@ -3,6 +3,7 @@
 
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/continuation/problem/options.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -37,10 +38,10 @@ struct OverParameter {
   std::shared_ptr<const model::Model> at(double value) const;
 };
 
-/// Throws scene::ParameterError if the scene has no parameter `over`, or the range exceeds its bounds. stop:
-/// Model::stop.
+/// Throws scene::ParameterError if the scene has no parameter `over`, or the range exceeds its bounds.
+/// control: Model::control.
 OverParameter over_parameter(scene::Scene scene, const std::string& over, double from, double to,
-                             scene::StopRequest stop = {});
+                             control::Control control = {});
 
 /// The status and stop of a branch over the parameter, once its events are there. doubt: of one that reaches
 /// the end of the range.

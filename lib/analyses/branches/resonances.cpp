@@ -1,6 +1,7 @@
 #include <arcslip/analyses/branches/resonances.hpp>
 
 #include <arcslip/analyses/branches/branch_description.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/event_kinds.hpp>
 
 #include <algorithm>
@@ -108,8 +109,8 @@ std::string text_of(const Resonances& all, const FrequencyWindow& window, scene:
   return all.harmonic > 1 ? text : text + question_of_swapped(all.free, window, unit);
 }
 
-std::string text_of_resonances(const scene::Scene& scene, const scene::StopRequest& stop) {
-  const model::Model model = model::build(scene, stop);
+std::string text_of_resonances(const scene::Scene& scene, const control::Control& control) {
+  const model::Model model = model::build(scene, control);
   return text_of(resonances(model, model::defaults(model), many_dofs), scene.frequency_unit);
 }
 

@@ -2,6 +2,7 @@
 // Where resonances lie: the natural frequencies around a window of the excitation frequency.
 
 #include <arcslip/analyses/branches/frequency_branch.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/observables/unresolved_resonances.hpp>
 #include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
@@ -31,7 +32,7 @@ std::string text_of(const Resonances& all, scene::FrequencyUnit unit);
 std::string text_of(const Resonances& all, const FrequencyWindow& window, scene::FrequencyUnit unit);
 
 /// The lowest ones of a scene. Throws Interrupted.
-std::string text_of_resonances(const scene::Scene& scene, const scene::StopRequest& stop = {});
+std::string text_of_resonances(const scene::Scene& scene, const control::Control& control = {});
 
 /// Where all branches over the window are complete and none has a peak, the first one says so, and where
 /// resonances lie.

@@ -2,6 +2,7 @@
 
 #include <arcslip/analyses/branches/branch_description.hpp>
 #include <arcslip/analyses/branches/phase_resonance.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/reasons.hpp>
 
@@ -34,13 +35,14 @@ Monitor kappa_monitor(const results::EventKind& kind, Eigen::Index at, double ka
 
 BifurcationTracer::BifurcationTracer(std::shared_ptr<const hbm::HbmProblem> problem, std::string kind,
                                      OverParameter way, const FrequencyWindow& window,
-                                     std::shared_ptr<CurveSection> section, Progress progress, GoOn go_on)
+                                     std::shared_ptr<CurveSection> section, Report report,
+                                     control::Control control)
     : CurveTracer(std::move(problem), std::move(way)),
       kind_(std::move(kind)),
       window_(window),
       section_(std::move(section)),
-      progress_(std::move(progress)),
-      go_on_(std::move(go_on)),
+      report_(std::move(report)),
+      control_(std::move(control)),
       equations_(
           continuation::test_function_zeros(problem_, model::frequency, test_functions(problem_, kind_))) {}
 
@@ -64,10 +66,11 @@ SpecialCurve BifurcationTracer::run(const SpecialPoint& start, int direction) {
       result.events.push_back({now.arclength, {event->monitor, event->nonsmooth, event->located, point}});
     if (event && !terminal) return true;
     result.points.push_back({now.arclength, 0, point, {}, is_pair() ? now.u[n + 1] : 0});
-    return terminal || progress_(now.parameter, now.u[n]);
+    if (!terminal) report_(now.parameter, now.u[n]);
+    return terminal || control_.keep_going();
   };
   auto options = way_.options();
-  options.go_on = go_on_;
+  options.control = control_;
   continuation::Branch branch = continuation::trace(
       equations_, {*x, parameters(start.x, start.over), way_.index, direction}, options, monitors(), record);
   add_scene_hint(problem_->model(), parameters(start.x, start.over), branch);

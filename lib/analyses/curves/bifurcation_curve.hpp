@@ -10,6 +10,7 @@
 
 #include <arcslip/analyses/curves/bifurcations.hpp>
 #include <arcslip/analyses/curves/special_curve.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <memory>
 #include <optional>
@@ -20,10 +21,10 @@ namespace arcslip::observables {
 
 class BifurcationTracer final : public CurveTracer {
  public:
-  /// kind: of event_kinds::of_curves, or phase_resonance. progress, go_on: as for SpecialCurveTracer.
+  /// kind: of event_kinds::of_curves, or phase_resonance. report, control: as for SpecialCurveTracer.
   BifurcationTracer(std::shared_ptr<const hbm::HbmProblem> problem, std::string kind, OverParameter way,
-                    const FrequencyWindow& window, std::shared_ptr<CurveSection> section, Progress progress,
-                    GoOn go_on = {});
+                    const FrequencyWindow& window, std::shared_ptr<CurveSection> section, Report report,
+                    control::Control control = {});
 
   SpecialCurve run(const SpecialPoint& start, int direction) override;
   bool passes(const SpecialCurve& curve, const SpecialPoint& through) const override;
@@ -41,8 +42,8 @@ class BifurcationTracer final : public CurveTracer {
   std::string kind_;
   FrequencyWindow window_;
   std::shared_ptr<CurveSection> section_;
-  Progress progress_;
-  GoOn go_on_;
+  Report report_;
+  control::Control control_;
   std::shared_ptr<const continuation::Problem> equations_;
 };
 

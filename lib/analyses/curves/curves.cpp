@@ -6,6 +6,7 @@
 #include <arcslip/analyses/curves/bifurcation_curve.hpp>
 #include <arcslip/analyses/curves/special_curve.hpp>
 #include <arcslip/analyses/curves/special_curve_results.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/reasons.hpp>
 
@@ -37,24 +38,25 @@ constexpr std::size_t most_responses = 24;
 class Curves {
  public:
   Curves(std::vector<std::string> kinds, const scene::Scene& scene, const CurveRange& range,
-         const ProgressCallback& report, double least = 0, std::optional<BranchLimits> all = {})
+         const control::Control& control, double least = 0, std::optional<BranchLimits> all = {})
       : kinds_(std::move(kinds)),
         peaks_(kinds_.front() == event_kinds::peak),
         unit_(scene.frequency_unit),
         to_rad_per_s_(scene::to_rad_per_s(unit_)),
         window_{range.frequency_from * to_rad_per_s_, range.frequency_to * to_rad_per_s_},
-        way_(over_parameter(scene, range.over, range.from, range.to, [this] { return !go_on(); })),
+        way_(over_parameter(scene, range.over, range.from, range.to, control)),
         parts_(kinds_.front(), unit_, way_),
-        report_(report),
+        control_(control),
         stability_(range.stability),
         least_(least),
         all_(std::move(all)) {}
 
   std::vector<ResponseBranch> run() {
     look_at(0);
-    if (!stopped_) look_at(1);
+    if (control_.keep_going()) look_at(1);
     for (const double share : between_ends) to_look_at_.push_back(share);
-    for (std::size_t i = 0; i < to_look_at_.size() && looked_at_.size() < most_responses && !stopped_; ++i)
+    for (std::size_t i = 0;
+         i < to_look_at_.size() && looked_at_.size() < most_responses && control_.keep_going(); ++i)
       if (!is_looked_at(to_look_at_[i])) look_at(to_look_at_[i]);
     see_which_meet();
     std::vector<ResponseBranch> branches;
@@ -65,7 +67,7 @@ class Curves {
         branches.push_back(std::move(part));
       }
     }
-    if (stopped_) {
+    if (!control_.keep_going()) {
       if (branches.empty() || branches.back().stop.reason != reasons::user)
         branches.push_back(parts_.stopped(way_.value(looked_at_.back())));
       return branches;
@@ -119,12 +121,6 @@ class Curves {
     return text_of(resonances(*way_.model, p), window_, unit_);
   }
 
-  // Reports progress and checks for a stop, also between points, with the numbers of the last one.
-  bool go_on() {
-    if (!stopped_ && report_ && !report_(progress_)) stopped_ = true;
-    return !stopped_;
-  }
-
   bool is_looked_at(double share) const {
     return std::any_of(looked_at_.begin(), looked_at_.end(),
                        [&](double other) { return std::abs(other - share) < least_apart; });
@@ -135,7 +131,7 @@ class Curves {
     looked_at_.push_back(share);
     const double over = way_.value(share);
     const SpecialPoints response = seen_at(over);
-    if (stopped_) return;
+    if (!control_.keep_going()) return;
     most_seen_ = std::max(most_seen_, response.branches);
     take(response.looked_at);
     tell_untraced(response.untraced, over);
@@ -145,7 +141,7 @@ class Curves {
     for (const SpecialPoint& start : response.points) {
       if (start.amplitude < least_ * highest) continue;
       follow(start, share);
-      if (stopped_) return;
+      if (!control_.keep_going()) return;
     }
     if (unbounded_.empty()) unbounded_ = response.unbounded;
     if (!response.unknown_stability.empty() && failure_.empty()) {
@@ -162,13 +158,15 @@ class Curves {
   SpecialPoints seen_at(double over) {
     // Bifurcations of further branches are left to Branches::all.
     const auto others = is_bifurcation(kinds_.front()) ? OtherBranches::none : OtherBranches::from_ends;
-    if (!all_) return special_points(way_, over, window_, kinds_, others, [this] { return go_on(); });
-    return special_points_of_all(way_, over, window_, kinds_, *all_, unit_, [this](const Progress& now) {
+    if (!all_) return special_points(way_, over, window_, kinds_, others, control_);
+    const auto report = [this](const control::Progress& now) {
       progress_.points = now.points;
       progress_.frequency = now.frequency;
       progress_.step = now.step;
-      return go_on();
-    });
+      control_.report(progress_);
+    };
+    return special_points_of_all(way_, over, window_, kinds_, *all_, unit_,
+                                 control_.child({.report = report}));
   }
 
   void take(const LookedAt& responses) {
@@ -211,7 +209,6 @@ class Curves {
     }
     if (curve.end.closed) curve = begun_at_a_turn(std::move(curve));
     drop_parts_of(*tracer, start, curve);
-    stopped_ = stopped_ || is_stopped(curve.end) || (curve.begin && is_stopped(*curve.begin));
     look_beyond(curve.end);
     if (curve.begin) look_beyond(*curve.begin);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
@@ -339,21 +336,21 @@ class Curves {
       section->watch_stability(is_bifurcation(start.kind) ? StabilityRequest(true) : stability_);
     section_ = section;
     const Eigen::Index n = problem->size();
-    const auto progress = [this, points = 0L, last = 0.0](double over, double omega) mutable {
+    const auto report = [this, points = 0L, last = 0.0](double over, double omega) mutable {
       progress_.points = ++points;
       progress_.frequency = omega / to_rad_per_s_;
       progress_.step = last > 0 ? (omega - last) / to_rad_per_s_ : 0;
       progress_.share_done = way_.share(over);
       last = omega;
-      return go_on();
+      control_.report(progress_);
     };
-    const auto ask = [this] { return go_on(); };
     if (zeros)
-      return std::make_unique<BifurcationTracer>(problem, start.kind, way_, window_, section, progress, ask);
+      return std::make_unique<BifurcationTracer>(problem, start.kind, way_, window_, section, report,
+                                                 control_);
     return std::make_unique<SpecialCurveTracer>(
         problem, peaks_ ? peak_kind(problem) : fold_kind(), way_, window_,
         with_folds(peaks_ ? amplitude_monitors(section) : fold_monitors(n)),
-        peaks_ ? amplitude_monitors(section) : std::vector{turn_monitor(n)}, section, progress, ask);
+        peaks_ ? amplitude_monitors(section) : std::vector{turn_monitor(n)}, section, report, control_);
   }
 
   // n: where the frequency stands among the unknowns.
@@ -374,8 +371,8 @@ class Curves {
   FrequencyWindow window_;
   OverParameter way_;
   CurveParts parts_;
-  const ProgressCallback& report_;
-  Progress progress_;
+  const control::Control control_;
+  control::Progress progress_;
   std::vector<double> looked_at_, to_look_at_;  // shares of the range
   std::vector<Found> found_;
   StabilityRequest stability_;
@@ -384,7 +381,6 @@ class Curves {
   int most_seen_ = 0;                      // branches at one value
   LookedAt seen_;                          // at all values
   std::vector<std::string> untraced_;
-  bool stopped_ = false;  // by the user
   double failed_at_ = 0;
   std::string failure_, unbounded_;
 };
@@ -392,30 +388,30 @@ class Curves {
 }  // namespace
 
 std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const CurveRange& range,
-                                            const ProgressCallback& progress) {
-  return high_resonance_peaks(scene, range, 0, progress);
+                                            const control::Control& control) {
+  return high_resonance_peaks(scene, range, 0, control);
 }
 
 std::vector<ResponseBranch> high_resonance_peaks(const scene::Scene& scene, const CurveRange& range,
-                                                 double share, const ProgressCallback& progress) {
+                                                 double share, const control::Control& control) {
   const bool phase = range.resonance == Resonance::phase;
-  return Curves({phase ? event_kinds::phase_resonance : event_kinds::peak}, scene, range, progress, share)
+  return Curves({phase ? event_kinds::phase_resonance : event_kinds::peak}, scene, range, control, share)
       .run();
 }
 
 std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const CurveRange& range,
-                                        const ProgressCallback& progress) {
-  return Curves({event_kinds::fold}, scene, range, progress).run();
+                                        const control::Control& control) {
+  return Curves({event_kinds::fold}, scene, range, control).run();
 }
 
 std::vector<ResponseBranch> bifurcation_curves(const scene::Scene& scene, const BifurcationRange& range,
-                                               const ProgressCallback& progress) {
+                                               const control::Control& control) {
   std::vector<std::string> kinds(event_kinds::of_curves.begin(), event_kinds::of_curves.end());
   if (range.of == BifurcationsOf::period_doubling) kinds = {event_kinds::period_doubling};
   if (range.of == BifurcationsOf::neimark_sacker) kinds = {event_kinds::neimark_sacker};
   if (range.of == BifurcationsOf::symmetry_breaking) kinds = {event_kinds::symmetry_breaking};
   return Curves(std::move(kinds), scene,
-                {range.over, range.from, range.to, range.frequency_from, range.frequency_to, true}, progress,
+                {range.over, range.from, range.to, range.frequency_from, range.frequency_to, true}, control,
                 0, range.branches == Branches::all ? std::optional(range.limits) : std::nullopt)
       .run();
 }

@@ -2,6 +2,7 @@
 // Curves over any parameter: of resonance peaks, of folds, and of other bifurcations.
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/stability/stability_request.hpp>
@@ -50,17 +51,17 @@ struct BifurcationRange {
 /// an element starts to slip. If a response cannot be continued through the window, a branch without points
 /// reports it.
 std::vector<ResponseBranch> resonance_peaks(const scene::Scene& scene, const CurveRange& range,
-                                            const ProgressCallback& progress = {});
+                                            const control::Control& control = {});
 
 /// Those of high peaks: a peak below this share of the highest one of its response starts no curve.
 std::vector<ResponseBranch> high_resonance_peaks(const scene::Scene& scene, const CurveRange& range,
-                                                 double share, const ProgressCallback& progress = {});
+                                                 double share, const control::Control& control = {});
 
 /// The curves of folds in frequency over range.over, found in the same way; two folds that meet in a cusp are
 /// on one curve. Events: "cusp", "fold", where the curve turns in the parameter, "turn", where it turns in
 /// the frequency (folds in the parameter at fixed frequency start or end there), and "corner" as for peaks.
 std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const CurveRange& range,
-                                        const ProgressCallback& progress = {});
+                                        const control::Control& control = {});
 
 /// The curves of bifurcations of the frequency response over range.over (bifurcation_curve.hpp), found in the
 /// same way, or of all branches at each of these values: motions that are antisymmetric double no period, but
@@ -72,6 +73,6 @@ std::vector<ResponseBranch> fold_curves(const scene::Scene& scene, const CurveRa
 /// multiplier is -1. A curve of Neimark-Sacker points ends at resonances 1:1 and 1:2 ("resonance"), and any
 /// where multipliers jump across the bifurcation ("jump").
 std::vector<ResponseBranch> bifurcation_curves(const scene::Scene& scene, const BifurcationRange& range,
-                                               const ProgressCallback& progress = {});
+                                               const control::Control& control = {});
 
 }  // namespace arcslip::observables

@@ -3,6 +3,7 @@
 #include <arcslip/analyses/branches/branch_description.hpp>
 #include <arcslip/analyses/branches/unbounded_resonance.hpp>
 #include <arcslip/analyses/curves/special_curve_results.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/event_kinds.hpp>
 
 #include <algorithm>
@@ -62,15 +63,16 @@ SpecialCurveTracer::SpecialCurveTracer(std::shared_ptr<const hbm::HbmProblem> pr
                                        OverParameter way, const FrequencyWindow& window,
                                        std::vector<Monitor> smooth_monitors,
                                        std::vector<Monitor> corner_monitors,
-                                       std::shared_ptr<CurveSection> section, Progress progress, GoOn go_on)
+                                       std::shared_ptr<CurveSection> section, Report report,
+                                       control::Control control)
     : CurveTracer(std::move(problem), std::move(way)),
       kind_(std::move(kind)),
       window_(window),
       smooth_monitors_(std::move(smooth_monitors)),
       corner_monitors_(std::move(corner_monitors)),
       section_(std::move(section)),
-      progress_(std::move(progress)),
-      go_on_(std::move(go_on)),
+      report_(std::move(report)),
+      control_(std::move(control)),
       smooth_(continuation::stationary_points(problem_, model::frequency, kind_.quantity)) {}
 
 SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
@@ -177,10 +179,11 @@ continuation::Branch SpecialCurveTracer::trace(const CurveStart& from) {
         return false;
       }
     }
-    return progress_(now.parameter, omega);
+    report_(now.parameter, omega);
+    return control_.keep_going();
   };
   auto options = way_.options();
-  options.go_on = go_on_;
+  options.control = control_;
   continuation::Branch branch =
       continuation::trace(corner ? hbm::corner_points(problem_, *from.corner) : smooth_,
                           {corner ? hbm::with_angles(from.x, *from.corner) : from.x,

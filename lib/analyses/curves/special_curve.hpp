@@ -12,6 +12,7 @@
 #include <arcslip/analyses/curves/special_point_observer.hpp>
 #include <arcslip/analyses/curves/special_points.hpp>
 #include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/grazing_problem.hpp>
 
 #include <functional>
@@ -73,7 +74,7 @@ SpecialCurve joined(SpecialCurve back, SpecialCurve ahead);
 /// Traces curves of special points of one kind.
 class CurveTracer {
  public:
-  using Progress = std::function<bool(double over, double omega)>;
+  using Report = std::function<void(double over, double omega)>;
 
   CurveTracer(std::shared_ptr<const hbm::HbmProblem> problem, OverParameter way)
       : problem_(std::move(problem)), way_(std::move(way)) {}
@@ -117,12 +118,12 @@ continuation::Monitor turn_monitor(Eigen::Index n);
 
 class SpecialCurveTracer final : public CurveTracer {
  public:
-  /// monitors: of the curve, in addition to that of the frequency window. progress: after each point, with
-  /// its value of the parameter and its frequency; false stops. go_on: called in between, too.
+  /// monitors: of the curve, in addition to that of the frequency window. report: called after each point,
+  /// with its value of the parameter and its frequency; control: asked in between, too.
   SpecialCurveTracer(std::shared_ptr<const hbm::HbmProblem> problem, SpecialKind kind, OverParameter way,
                      const FrequencyWindow& window, std::vector<continuation::Monitor> smooth_monitors,
                      std::vector<continuation::Monitor> corner_monitors,
-                     std::shared_ptr<CurveSection> section, Progress progress, GoOn go_on = {});
+                     std::shared_ptr<CurveSection> section, Report report, control::Control control = {});
 
   SpecialCurve run(const SpecialPoint& start, int direction) override;
   bool passes(const SpecialCurve& curve, const SpecialPoint& through) const override {
@@ -163,8 +164,8 @@ class SpecialCurveTracer final : public CurveTracer {
   FrequencyWindow window_;
   std::vector<continuation::Monitor> smooth_monitors_, corner_monitors_;
   std::shared_ptr<CurveSection> section_;
-  Progress progress_;
-  GoOn go_on_;
+  Report report_;
+  control::Control control_;
   std::shared_ptr<const continuation::Problem> smooth_;
   SpecialCurve result_;
   double arclength_ = 0;  // where the part begins

@@ -138,7 +138,7 @@ std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::seen_beyond(co
       std::vector<SpecialPoint> near;
       const double over = at.over * (1 + direction * nearby);
       if (!inside(over)) return near;
-      const auto response = special_points(way_, over, window_, {kind_.event}, others, go_on_);
+      const auto response = special_points(way_, over, window_, {kind_.event}, others, control_);
       if (!response.failure.empty() || !response.unbounded.empty()) return near;
       for (const SpecialPoint& point : response.points)
         if (std::abs(point.x[n] / at.x[n] - 1) < in_sight) near.push_back(point);

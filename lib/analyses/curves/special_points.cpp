@@ -5,6 +5,7 @@
 #include <arcslip/analyses/branches/unbounded_resonance.hpp>
 #include <arcslip/analyses/curves/special_curve_results.hpp>
 #include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/observables/observe.hpp>
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/reasons.hpp>
@@ -36,12 +37,12 @@ bool others_leave_at(const std::string& kind) {
 class SpecialPointSearch {
  public:
   SpecialPointSearch(std::shared_ptr<const model::Model> model, double over, const FrequencyWindow& window,
-                     const std::vector<std::string>& kinds, const GoOn& go_on)
+                     const std::vector<std::string>& kinds, const control::Control& control)
       : model_(std::move(model)),
         over_(over),
         window_(window),
         kinds_(kinds),
-        go_on_(go_on),
+        control_(control),
         stability_(std::any_of(kinds.begin(), kinds.end(), is_bifurcation)),
         watched_{.stability = {stability_},
                  .phase = std::find(kinds.begin(), kinds.end(), event_kinds::phase_resonance) != kinds.end(),
@@ -105,7 +106,7 @@ class SpecialPointSearch {
     const std::size_t before = found_.points.size();
     PoleWatch watch(window_.lower, window_.upper);
     const auto swept = frequency_branch(model_, window_, from, recording(watch), direction, Steps::curve,
-                                        go_on_, watched_, place.displacement);
+                                        control_, watched_, place.displacement);
     const auto& stop = swept.branch.stop;
     if (stop.reason == StopReason::start_failed && place.starts.size() > 1) {
       BeyondPole farther = place;
@@ -126,9 +127,9 @@ class SpecialPointSearch {
   void add_others_from_ends() {
     for (const double end : {window_.lower, window_.upper})
       for (const Vector& u :
-           further_responses(problem_, hbm::parameters_at(*problem_, end), responses_at(end), go_on_)) {
+           further_responses(problem_, hbm::parameters_at(*problem_, end), responses_at(end), control_)) {
         const std::vector<Vector> known = responses_at(end);
-        if (index_of(*problem_, u, known) == known.size() && (!go_on_ || go_on_())) add_inwards(end, u);
+        if (index_of(*problem_, u, known) == known.size() && control_.keep_going()) add_inwards(end, u);
       }
   }
 
@@ -145,7 +146,7 @@ class SpecialPointSearch {
     PoleWatch watch(window_.lower, window_.upper);
     const auto traced =
         frequency_branch_part(problem_, window_, end, is_up ? window_.upper : window_.lower, u,
-                              recording(watch), is_up ? 1 : -1, Steps::curve, go_on_, watched_);
+                              recording(watch), is_up ? 1 : -1, Steps::curve, control_, watched_);
     take(traced, before);
     if (watch.growth().unbounded)
       found_.unbounded = watch.growth().message;
@@ -157,7 +158,7 @@ class SpecialPointSearch {
   double over_;
   const FrequencyWindow& window_;
   const std::vector<std::string>& kinds_;
-  const GoOn& go_on_;
+  const control::Control& control_;
   bool stability_;
   MonitoredEvents watched_;
   SpecialPoints found_;
@@ -168,18 +169,19 @@ class SpecialPointSearch {
 }  // namespace
 
 SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
-                             const std::vector<std::string>& kinds, OtherBranches others, const GoOn& go_on) {
-  return SpecialPointSearch(way.at(over), over, window, kinds, go_on).run(others);
+                             const std::vector<std::string>& kinds, OtherBranches others,
+                             const control::Control& control) {
+  return SpecialPointSearch(way.at(over), over, window, kinds, control).run(others);
 }
 
 SpecialPoints special_points_of_all(const OverParameter& way, double over, const FrequencyWindow& window,
                                     const std::vector<std::string>& kinds, const BranchLimits& limits,
-                                    scene::FrequencyUnit unit, const ProgressCallback& progress) {
+                                    scene::FrequencyUnit unit, const control::Control& control) {
   const double per_unit = scene::to_rad_per_s(unit);
   FrequencyRange range{window.lower / per_unit, window.upper / per_unit};
   range.branches = Branches::all;
   range.limits = limits;
-  const auto all = traced_branches(way.at(over), unit, range, Steps::events, progress);
+  const auto all = traced_branches(way.at(over), unit, range, Steps::events, control);
   SpecialPoints found;
   found.branches = static_cast<int>(all.size());
   for (const TracedBranch& branch : all) {

@@ -5,7 +5,7 @@
 #include <arcslip/analyses/branches/all_branches.hpp>
 #include <arcslip/analyses/branches/frequency_branch.hpp>
 #include <arcslip/analyses/branches/parameter_trace.hpp>
-#include <arcslip/control/progress.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/results/response.hpp>
 
@@ -49,16 +49,16 @@ enum class OtherBranches {
 
 /// The special points in a frequency window at the value `over` of the parameter, on the branch from its
 /// lower end on, and on others. kinds: of events, event_kinds::peak, fold, or of_curves, for which
-/// multipliers are computed and the branches that leave are reported. If go_on returns false, the points
+/// multipliers are computed and the branches that leave are reported. If `control` ends, the points
 /// found so far.
 SpecialPoints special_points(const OverParameter& way, double over, const FrequencyWindow& window,
                              const std::vector<std::string>& kinds, OtherBranches others,
-                             const GoOn& go_on = {});
+                             const control::Control& control = {});
 
 /// The same of all branches (analyses/branches/all_branches.hpp). If progress returns false, the points found
 /// so far.
 SpecialPoints special_points_of_all(const OverParameter& way, double over, const FrequencyWindow& window,
                                     const std::vector<std::string>& kinds, const BranchLimits& limits,
-                                    scene::FrequencyUnit unit, const results::ProgressCallback& progress);
+                                    scene::FrequencyUnit unit, const control::Control& control);
 
 }  // namespace arcslip::observables

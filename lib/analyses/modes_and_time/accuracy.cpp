@@ -2,6 +2,7 @@
 
 #include <arcslip/analyses/branches/branch_description.hpp>
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/reasons.hpp>
@@ -27,8 +28,8 @@ constexpr double decades[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8};  // that the 
 
 class Trials {
  public:
-  Trials(const scene::Scene& scene, const AccuracySettings& settings, const ProgressCallback& progress)
-      : scene_(scene), settings_(settings), progress_(progress) {
+  Trials(const scene::Scene& scene, const AccuracySettings& settings, const control::Control& control)
+      : scene_(scene), settings_(settings), control_(control) {
     const model::Model model = model::build(scene);
     result_.parameters = described(model).parameters;
     const int period = scene.harmonics.period;
@@ -62,10 +63,10 @@ class Trials {
     long points = 0;
   };
 
-  bool go_on() {
+  bool keep_going() {
     reported_.points = static_cast<long>(result_.trials.size());
-    if (!stopped_ && progress_ && !progress_(reported_)) stopped_ = true;
-    return !stopped_ && failure_.empty();
+    control_.report(reported_);
+    return control_.keep_going() && failure_.empty();
   }
 
   int samples_of(int order, int per_order) const {
@@ -85,8 +86,7 @@ class Trials {
   // The highest peak of a frequency response; none: why, in failure.
   std::optional<Peak> highest_peak(const scene::Scene& scene, std::string& failure) {
     Peak found;
-    const auto keep_on = [this](const results::Progress&) { return go_on(); };
-    for (const auto& branch : frequency_response(scene, {settings_.from, settings_.to}, keep_on)) {
+    for (const auto& branch : frequency_response(scene, {settings_.from, settings_.to}, control_.quiet())) {
       found.points += static_cast<long>(branch.points.size());
       if (branch.status != Status::complete) failure = branch.stop.message;
       for (const auto& event : branch.events) {
@@ -103,13 +103,14 @@ class Trials {
   // Twice the highest order, and the difference from that order.
   void refer() {
     std::array<ResponsePoint, 2> peaks;
-    for (std::size_t i = 0; i < 2 && go_on(); ++i) {
+    for (std::size_t i = 0; i < 2 && keep_going(); ++i) {
       const int order = orders_.back() * (i == 0 ? 1 : 2) + (i == 0 ? 0 : scene_.harmonics.period);
       result_.reference_order = std::min(order, scene::largest_order);
       std::string failure;
       const auto peak = highest_peak(with(result_.reference_order, scene::Friction::exact, 0), failure);
       if (!peak) {
-        if (!stopped_) failure_ = "no reference at order " + std::to_string(order) + ": " + failure;
+        if (control_.keep_going())
+          failure_ = "no reference at order " + std::to_string(order) + ": " + failure;
         return;
       }
       peaks[i] = peak->point;
@@ -140,11 +141,11 @@ class Trials {
   }
 
   void leave_out(Way way, const std::string& what, const std::string& why) {
-    if (!stopped_) result_.left_out.push_back(std::string(name(way)) + ", " + what + ": " + why);
+    if (control_.keep_going()) result_.left_out.push_back(std::string(name(way)) + ", " + what + ": " + why);
   }
 
   bool balance(Way way, int order, int samples) {
-    if (!go_on()) return false;
+    if (!keep_going()) return false;
     Trial trial{.way = way, .order = order, .samples = samples};
     const auto scene =
         with(order, way == Way::sampled ? scene::Friction::sampled : scene::Friction::exact, samples);
@@ -175,7 +176,7 @@ class Trials {
   }
 
   void in_time(Way way, TimeMethod method, int count) {
-    if (!go_on()) return;
+    if (!keep_going()) return;
     Trial trial{.way = way, .samples = count};
     trial.omega = result_.reference_omega;
     trial.points = 1;
@@ -183,9 +184,8 @@ class Trials {
     const TimeSettings settings{.frequency = trial.omega / scene::to_rad_per_s(scene_.frequency_unit),
                                 .method = method,
                                 .steps = count};
-    const auto keep_on = [this](const results::Progress&) { return go_on(); };
     const bool done = timed(trial.seconds, [&] {
-      motion = motion_in_time(scene_, settings, keep_on);
+      motion = motion_in_time(scene_, settings, control_.quiet());
       return motion.status == Status::complete;
     });
     if (!done) return leave_out(way, std::to_string(count) + " steps", motion.stop.message);
@@ -201,7 +201,7 @@ class Trials {
       trial.best = std::none_of(trials.begin(), trials.end(), [&](const Trial& other) {
         return other.error <= trial.error && other.seconds_per_point() < trial.seconds_per_point();
       });
-    if (stopped_) {
+    if (!control_.keep_going()) {
       result_.status = Status::stopped;
       result_.stop = {reasons::user, static_cast<double>(trials.size()), 0, "stopped by the caller"};
     } else if (!failure_.empty()) {
@@ -235,12 +235,11 @@ class Trials {
 
   const scene::Scene& scene_;
   AccuracySettings settings_;
-  const ProgressCallback& progress_;
+  const control::Control control_;
   std::vector<int> orders_;
   Accuracy result_;
-  results::Progress reported_{};
+  control::Progress reported_{};
   std::string failure_;
-  bool stopped_ = false;
 };
 
 }  // namespace
@@ -259,8 +258,8 @@ std::string_view name(Way way) {
 }
 
 Accuracy accuracy(const scene::Scene& scene, const AccuracySettings& settings,
-                  const ProgressCallback& progress) {
-  return Trials(scene, settings, progress).run();
+                  const control::Control& control) {
+  return Trials(scene, settings, control).run();
 }
 
 const Trial* fastest(const Accuracy& accuracy, double error) {

@@ -12,6 +12,7 @@
 
 #include <arcslip/analyses/modes_and_time/time_results.hpp>
 #include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <string>
 #include <string_view>
@@ -65,7 +66,7 @@ struct Accuracy {
 
 /// One result. Times are those of this machine, alone if nothing else runs on it.
 Accuracy accuracy(const scene::Scene& scene, const AccuracySettings& settings,
-                  const ProgressCallback& progress = {});
+                  const control::Control& control = {});
 
 /// The fastest of the trials with at most this error; nullptr: none.
 const Trial* fastest(const Accuracy& accuracy, double error);

@@ -1,6 +1,7 @@
 #include <arcslip/analyses/modes_and_time/frequency_sweep.hpp>
 
 #include <arcslip/analyses/branches/branch_description.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/results/reasons.hpp>
 #include <arcslip/time/periodic/period_integrator.hpp>
@@ -32,8 +33,8 @@ struct Reached {
 
 class Sweeping {
  public:
-  Sweeping(const scene::Scene& scene, const SweepSettings& settings, const ProgressCallback& report)
-      : settings_(settings), to_rad_per_s_(scene::to_rad_per_s(scene.frequency_unit)), report_(report) {
+  Sweeping(const scene::Scene& scene, const SweepSettings& settings, const control::Control& control)
+      : settings_(settings), to_rad_per_s_(scene::to_rad_per_s(scene.frequency_unit)), control_(control) {
     scene::Scene with = scene;
     with.harmonics.period = 1;
     unit_ = scene.frequency_unit;
@@ -128,12 +129,12 @@ class Sweeping {
         return std::nullopt;
       }
       const time::Flow flow = [&](const MotionState& state) {
-        return go_on() ? integrator.flow(state) : time::PeriodMap();
+        return control_.keep_going() ? integrator.flow(state) : time::PeriodMap();
       };
       Settled motion = time::settle(integrator.periods, flow, integrator.start, equation.omega, options,
-                                    [&](long periods, double) { return go_on(periods); });
+                                    [&](long periods, double) { return report(periods); });
       now_.periods += motion.periods;
-      if (stopped_) {
+      if (!control_.keep_going()) {
         end(Status::stopped, reasons::user, "stopped by the caller");
         return std::nullopt;
       }
@@ -151,7 +152,7 @@ class Sweeping {
   Integrator choose(const time::EquationOfMotion& equation, const MotionState& start) {
     if (!only_steps_) {
       try {
-        const time::EventLimits limits{affordable_events, affordable_pieces, [this] { return !go_on(); }};
+        const time::EventLimits limits{affordable_events, affordable_pieces, control_};
         return note(between_events(equation, start, settings_.steps, limits));
       } catch (const time::NotPiecewiseLinear&) {
         only_steps_ = true;
@@ -159,7 +160,7 @@ class Sweeping {
         only_steps_ = true;
       }
     }
-    return note(in_steps(equation, start, settings_.steps, [this] { return !go_on(); }));
+    return note(in_steps(equation, start, settings_.steps, control_));
   }
 
   Integrator note(Integrator integrator) {
@@ -168,14 +169,15 @@ class Sweeping {
     return integrator;
   }
 
-  bool go_on(long periods = 0) {
+  // False where the user stops.
+  bool report(long periods) {
     const double within = static_cast<double>(periods) / settings_.periods;
     const double passed = static_cast<double>(now_.points.size()) + std::min(within, 0.99);
     const double half = settings_.direction == SweepDirection::up_down ? 0.5 : 1;
     const double before = half < 1 && now_.direction == SweepDirection::down ? 0.5 : 0;
     progress_.share_done = std::min(1.0, before + half * passed / static_cast<double>(intervals_ + 1));
-    stopped_ = stopped_ || (report_ && !report_(progress_));
-    return !stopped_;
+    control_.report(progress_);
+    return control_.keep_going();
   }
 
   static bool is_settled(const Reached& reached) { return reached.motion.reason == time::SettleEnd::settled; }
@@ -225,15 +227,15 @@ class Sweeping {
   SweepSettings settings_;
   double to_rad_per_s_;
   scene::FrequencyUnit unit_{};
-  const ProgressCallback& report_;
-  Progress progress_;
+  const control::Control control_;
+  control::Progress progress_;
   std::shared_ptr<const model::Model> model_;
   continuation::Vector p_;
   long intervals_ = 1;
   std::optional<MotionState> state_;  // of the last motion; at first none
   FrequencySweep now_;
   double last_change_ = 0;
-  bool only_steps_ = false, stopped_ = false;
+  bool only_steps_ = false;
 };
 
 }  // namespace
@@ -251,8 +253,8 @@ std::string_view name(SweepDirection direction) {
 }
 
 std::vector<FrequencySweep> frequency_sweep(const scene::Scene& scene, const SweepSettings& settings,
-                                            const ProgressCallback& progress) {
-  return Sweeping(scene, settings, progress).run();
+                                            const control::Control& control) {
+  return Sweeping(scene, settings, control).run();
 }
 
 }  // namespace arcslip::observables

@@ -7,7 +7,7 @@
 // halved again and again, towards the half with the larger change: of a smooth A the change falls as the step
 // does, at a jump it stays.
 
-#include <arcslip/control/progress.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -17,9 +17,6 @@
 #include <vector>
 
 namespace arcslip::observables {
-
-using results::Progress;
-using results::ProgressCallback;
 
 /// up_down: up, and then down from where that ended.
 enum class SweepDirection { up, down, up_down };
@@ -77,6 +74,6 @@ struct FrequencySweep {
 
 /// One sweep, or two for up_down, the first one from rest. Threads may share the scene.
 std::vector<FrequencySweep> frequency_sweep(const scene::Scene& scene, const SweepSettings& settings,
-                                            const ProgressCallback& progress = {});
+                                            const control::Control& control = {});
 
 }  // namespace arcslip::observables

@@ -5,6 +5,7 @@
 #include <arcslip/analyses/branches/stop_reason.hpp>
 #include <arcslip/analyses/modes_and_time/one_mode_synthesis.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/mode_start.hpp>
 #include <arcslip/observables/mechanical_energy.hpp>
 #include <arcslip/observables/observe.hpp>
@@ -57,17 +58,18 @@ continuation::Monitor amplitude_monitor(std::string name, double log_amplitude) 
 
 class ModeStudy {
  public:
-  ModeStudy(const scene::Scene& scene, const ModeRange& range, const results::ProgressCallback& progress)
+  ModeStudy(const scene::Scene& scene, const ModeRange& range, const control::Control& control)
       : unit_(scene.frequency_unit),
         range_(range),
-        progress_(progress),
-        model_(model_of(scene, [this] { return !go_on(); })),
+        control_(control),
+        model_(model_of(scene, control)),
         free_(std::make_shared<const model::Model>(hbm::without_excitation(*model_))) {
     if (range.mode < 1 || !(range.from > 0) || !(range.from < range.to))
       throw std::invalid_argument("a mode needs a number from 1 on and amplitudes 0 < from < to");
   }
 
   ResponseBranch run() {
+    control_.report(reported_);
     const auto began = std::chrono::steady_clock::now();
     result_ = described(*model_);
     trace();
@@ -83,9 +85,8 @@ class ModeStudy {
       return fail(reasons::start_failed, "no spring holds the mean position of \"" +
                                              free_->dof_names[static_cast<std::size_t>(*dof)] +
                                              "\", which is free to drift");
-    hbm::ModeStart start =
-        hbm::mode_start(free_, *model_, range_.mode, range_.from, [this] { return go_on(); });
-    if (stopped_) return stop();
+    hbm::ModeStart start = hbm::mode_start(free_, *model_, range_.mode, range_.from, control_);
+    if (!control_.keep_going()) return stop();
     if (!start.no_mode.empty()) return fail(reasons::no_mode, start.no_mode);
     if (!start.failure.empty()) return fail(reasons::start_failed, start.failure);
     const auto problem = start.problem;
@@ -94,7 +95,7 @@ class ModeStudy {
     if (start.amplitude < range_.from) {
       const auto ahead = branch(problem, u, start.amplitude, range_.from, {});
       add(ahead, result_.solver);
-      if (stopped_) return stop();
+      if (!control_.keep_going()) return stop();
       if (ahead.stop.reason != StopReason::boundary || ahead.stop.value < std::log(range_.from))
         return fail(reasons::start_failed, "mode " + std::to_string(range_.mode) + " was not found at " +
                                                metres(range_.from) + ": followed from " +
@@ -142,7 +143,7 @@ class ModeStudy {
     options.check_jacobian = false;
     options.step.largest_parameter = (options.upper - options.lower) / points_in_range;
     options.step.curve_tolerance = curve_tolerance;
-    options.go_on = [this] { return go_on(); };
+    options.control = control_;
     const bool divides = free_->settings.friction == scene::Friction::exact;
     std::vector<continuation::Monitor> monitors;
     if (record) {
@@ -196,7 +197,8 @@ class ModeStudy {
     reported_.share_done =
         std::clamp(std::log(point.amplitude / range_.from) / std::log(range_.to / range_.from), 0.0, 1.0);
     result_.points.push_back(std::move(point));
-    return go_on();
+    control_.report(reported_);
+    return control_.keep_going();
   }
 
   ResponsePoint observe(const hbm::ModeProblem& problem, const hbm::ModeEvaluator& at) {
@@ -238,17 +240,11 @@ class ModeStudy {
   }
 
   void add_true_peak(const hbm::ModeEvaluator& at, ResponsePoint& point) {
-    const auto peak = synthesis_->true_peak(at.motion(), at.unknowns(), at.damping_ratio(), point.synthesis,
-                                            [this] { return go_on(); });
+    const auto peak =
+        synthesis_->true_peak(at.motion(), at.unknowns(), at.damping_ratio(), point.synthesis, control_);
     if (!peak) return;
     point.synthesis.true_omega = peak->omega;
     point.synthesis.true_amplitude = peak->amplitude;
-  }
-
-  // Reports progress and checks for a stop, also between points.
-  bool go_on() {
-    if (!stopped_ && progress_ && !progress_(reported_)) stopped_ = true;
-    return !stopped_;
   }
 
   void stop() {
@@ -336,7 +332,7 @@ class ModeStudy {
 
   scene::FrequencyUnit unit_;
   ModeRange range_;
-  const results::ProgressCallback& progress_;
+  const control::Control control_;
   std::shared_ptr<const model::Model> model_, free_;
   std::unique_ptr<Observer> observer_;
   std::unique_ptr<MechanicalEnergy> energy_;
@@ -344,16 +340,15 @@ class ModeStudy {
   ResponseBranch result_;
   std::vector<std::pair<double, double>> course_;  // arclength, 1 + zeta
   std::vector<double> at_;                         // arclength of the events
-  results::Progress reported_{};
+  control::Progress reported_{};
   double last_ = 0;  // rad/s
-  bool stopped_ = false;
 };
 
 }  // namespace
 
 std::vector<ResponseBranch> nonlinear_modes(const scene::Scene& scene, const ModeRange& range,
-                                            const results::ProgressCallback& progress) {
-  return {ModeStudy(scene, range, progress).run()};
+                                            const control::Control& control) {
+  return {ModeStudy(scene, range, control).run()};
 }
 
 }  // namespace arcslip::observables

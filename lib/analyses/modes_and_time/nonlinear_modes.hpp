@@ -2,7 +2,7 @@
 // Nonlinear modes (hbm/mode.hpp): the branch of free periodic motions over the amplitude of the response,
 // with the extrema of the damping ratio and the folds in the amplitude.
 
-#include <arcslip/control/progress.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -25,6 +25,6 @@ struct ModeRange {
 /// the negative damping. Throws std::invalid_argument unless mode >= 1 and 0 < from < to. Threads may share
 /// the scene.
 std::vector<ResponseBranch> nonlinear_modes(const scene::Scene& scene, const ModeRange& range,
-                                            const results::ProgressCallback& progress = {});
+                                            const control::Control& control = {});
 
 }  // namespace arcslip::observables

@@ -2,6 +2,7 @@
 
 #include <arcslip/analyses/branches/frequency_branch.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/mode.hpp>
 #include <arcslip/observables/observe.hpp>
 #include <arcslip/results/event_kinds.hpp>
@@ -138,7 +139,7 @@ Synthesis OneModeSynthesis::of(const hbm::HbmEvaluator& motion, In u, double ome
 
 std::optional<OneModeSynthesis::Peak> OneModeSynthesis::true_peak(const hbm::HbmEvaluator& motion, In u,
                                                                   double zeta, const Synthesis& nearby,
-                                                                  const std::function<bool()>& go_on) const {
+                                                                  const control::Control& control) const {
   if (!(nearby.level > 0) || !std::isfinite(nearby.level) || !(nearby.omega > 0)) return {};
   const double half = std::clamp(half_widths * std::abs(zeta), narrowest, widest) * nearby.omega;
   const FrequencyWindow window{nearby.omega - half, nearby.omega + half};
@@ -166,7 +167,7 @@ std::optional<OneModeSynthesis::Peak> OneModeSynthesis::true_peak(const hbm::Hbm
       return false;
     };
     continuation::trace(problem, {*start, p, model::frequency, direction},
-                        frequency_options(window, Steps::events, go_on),
+                        frequency_options(window, Steps::events, control),
                         frequency_monitors(std::make_shared<Observer>(problem), Steps::events, {}), record);
   }
   return highest;

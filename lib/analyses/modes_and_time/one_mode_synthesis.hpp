@@ -15,11 +15,11 @@
 // mode is driven, and for one mass with friction and one harmonic; otherwise the other modes and the
 // harmonics that the excitation would add are left out. f of a moving base is taken at omega.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/results/response.hpp>
 
 #include <complex>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -43,7 +43,7 @@ class OneModeSynthesis {
     double omega, amplitude;  // half the way between the extremes of the response, m
   };
   std::optional<Peak> true_peak(const hbm::HbmEvaluator& motion, continuation::In u, double zeta,
-                                const Synthesis& nearby, const std::function<bool()>& go_on) const;
+                                const Synthesis& nearby, const control::Control& control) const;
 
  private:
   std::complex<double> work(const hbm::HbmEvaluator& motion, continuation::In u, double omega) const;

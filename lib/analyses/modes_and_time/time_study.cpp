@@ -5,6 +5,7 @@
 #include <arcslip/analyses/branches/unbounded_resonance.hpp>
 #include <arcslip/analyses/modes_and_time/perturbed_transient.hpp>
 #include <arcslip/analyses/responses/responses_at.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/observables/patch_totals.hpp>
 #include <arcslip/results/reasons.hpp>
 #include <arcslip/stability/state_from_harmonics.hpp>
@@ -33,10 +34,10 @@ constexpr int expected_maps = 20;  // of shooting, for progress
 
 class InTime {
  public:
-  InTime(const scene::Scene& scene, const TimeSettings& settings, const ProgressCallback& report)
+  InTime(const scene::Scene& scene, const TimeSettings& settings, const control::Control& control)
       : settings_(settings),
         model_(std::make_shared<const model::Model>(model::build(scene))),
-        report_(report) {
+        control_(control) {
     motion_.parameters = described(*model_).parameters;
     motion_.method = settings_.method;
     motion_.omega = settings_.frequency * scene::to_rad_per_s(scene.frequency_unit);
@@ -81,9 +82,9 @@ class InTime {
   }
 
   bool begin_at_response() {
-    ResponseOfAmplitude found = response_of_amplitude(model_, motion_.omega, settings_.start_amplitude,
-                                                      [this] { return go_on(progress_.points); });
-    if (stopped_) {
+    ResponseOfAmplitude found =
+        response_of_amplitude(model_, motion_.omega, settings_.start_amplitude, control_);
+    if (!control_.keep_going()) {
       end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
     } else if (!found.point) {
       end(Status::failed, reasons::start_failed, 0, 0,
@@ -92,7 +93,7 @@ class InTime {
       start_ = time::state_of(*found.problem, found.u, hbm::parameters_at(*found.problem, motion_.omega));
       response_ = std::move(found.point);
     }
-    return response_.has_value() && !stopped_;
+    return response_.has_value() && control_.keep_going();
   }
 
   bool choose(Integrator& integrator) {
@@ -103,7 +104,7 @@ class InTime {
       try {
         time::EventLimits limits;
         if (may_differ) limits = {affordable_events, affordable_pieces};
-        limits.stop = [this] { return !go_on(progress_.points); };
+        limits.control = control_;
         integrator = between_events(equation_, start_, settings_.steps, limits);
         return true;
       } catch (const time::NotPiecewiseLinear& error) {
@@ -122,12 +123,10 @@ class InTime {
     return true;
   }
 
-  Integrator newmark() {
-    return in_steps(equation_, start_, settings_.steps, [this] { return !go_on(progress_.points); });
-  }
+  Integrator newmark() { return in_steps(equation_, start_, settings_.steps, control_); }
 
-  // Reports of the progress; false where the user stops.
-  bool go_on(long periods, double change = 1) {
+  // False where the user stops.
+  bool report(long periods, double change = 1) {
     progress_.points = periods;
     const bool shooting =
         settings_.method == TimeMethod::shooting || settings_.method == TimeMethod::newmark_shooting;
@@ -136,8 +135,8 @@ class InTime {
                                 ? std::log(change) / std::log(settings_.tolerance)
                                 : 0;
     progress_.share_done = std::clamp(std::max(of_limit, of_decay), 0.0, 1.0);
-    stopped_ = stopped_ || (report_ && !report_(progress_));
-    return !stopped_;
+    control_.report(progress_);
+    return control_.keep_going();
   }
 
   void shoot(const Integrator& integrator) {
@@ -146,7 +145,7 @@ class InTime {
       return end(Status::failed, reasons::unbounded, 0, 0, growth.message);
     }
     const time::Flow flow = [&](const MotionState& start) {
-      if (go_on(progress_.points + 1)) return integrator.flow(start);
+      if (report(progress_.points + 1)) return integrator.flow(start);
       time::PeriodMap none;
       none.message = "stopped by the caller";
       return none;
@@ -156,11 +155,11 @@ class InTime {
     if (response_) options.transients = 0;
     time::ShootingResult found = time::shoot(flow, integrator.start, equation_.omega, options);
     const bool may_differ = settings_.method == TimeMethod::shooting && integrator.between_events;
-    if (found.reason == time::ShootingEnd::flow_failed && may_differ && !stopped_) {
+    if (found.reason == time::ShootingEnd::flow_failed && may_differ && control_.keep_going()) {
       motion_.integrator = "newmark";
       return shoot(newmark());
     }
-    if (!found.converged() && !stopped_) {
+    if (!found.converged() && control_.keep_going()) {
       if (const auto start = from_harmonic_balance()) {
         options.transients = 0;
         time::ShootingResult again = time::shoot(flow, *start, equation_.omega, options);
@@ -169,9 +168,9 @@ class InTime {
     }
     motion_.periods = progress_.points + settings_.recorded;
     motion_.change = found.correction;
-    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
+    if (!control_.keep_going()) return end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
     record(integrator.periods(found.start, settings_.recorded, true));
-    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
+    if (!control_.keep_going()) return end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
     if (!found.converged())
       return end(Status::failed, reasons::no_periodic_motion, found.correction, settings_.tolerance,
                  found.message);
@@ -195,8 +194,7 @@ class InTime {
   }
 
   std::optional<MotionState> from_harmonic_balance() {
-    const FirstResponse first =
-        first_response(model_, motion_.omega, motion_.omega, [this] { return go_on(progress_.points); });
+    const FirstResponse first = first_response(model_, motion_.omega, motion_.omega, control_);
     if (!first.u) return std::nullopt;
     const auto p = hbm::parameters_at(*first.problem, motion_.omega);
     MotionState state = time::state_of(*first.problem, *first.u, p);
@@ -206,15 +204,16 @@ class InTime {
 
   void depart(const Integrator& integrator) {
     const time::SettleOptions options{settings_.periods, longest_period, settings_.tolerance};
-    Departure found = departure(integrator, integrator.start, equation_.omega, settings_.perturbation,
-                                options, [&](long periods, double change) { return go_on(periods, change); });
+    Departure found =
+        departure(integrator, integrator.start, equation_.omega, settings_.perturbation, options,
+                  [&](long periods, double change) { return report(periods, change); });
     const time::Settled& reached = found.end;
     const bool is_known = found.failure.empty();
     const int repeats = std::max(settings_.recorded, reached.period);
     motion_.periods = reached.periods + repeats;
     motion_.change = reached.change;
     record(integrator.periods(is_known ? reached.state : integrator.start, repeats, true));
-    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
+    if (!control_.keep_going()) return end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
     if (!is_known) return end(Status::failed, reasons::no_periodic_motion, 0, 0, found.failure);
     MotionDeparture& reported = motion_.departure.emplace();
     reported.response_amplitude = response_->amplitude;
@@ -251,7 +250,7 @@ class InTime {
     const time::TransientOptions options{settings_.periods, settings_.recorded, settings_.tolerance};
     time::Transient found =
         time::transient(integrator.periods, integrator.start, equation_.omega, options,
-                        [&](long periods, double change) { return go_on(periods, change); });
+                        [&](long periods, double change) { return report(periods, change); });
     motion_.periods = found.periods + settings_.recorded;
     motion_.change = found.change;
     const results::Reason failure = found.motion.failure;
@@ -259,7 +258,7 @@ class InTime {
     record(std::move(found.motion));
     std::ostringstream text;
     text.precision(3);
-    if (stopped_) return end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
+    if (!control_.keep_going()) return end(Status::stopped, reasons::user, 0, 0, "stopped by the caller");
     switch (found.reason) {
       case time::TransientEnd::steady:
         text << "steady after " << found.periods << " periods: relative change of the state per period "
@@ -332,14 +331,13 @@ class InTime {
 
   TimeSettings settings_;
   std::shared_ptr<const model::Model> model_;
-  const ProgressCallback& report_;
-  Progress progress_;
+  const control::Control control_;
+  control::Progress progress_;
   continuation::Vector p_;
   EquationOfMotion equation_;
   MotionState start_;                      // at rest, or of the response
   std::optional<ResponsePoint> response_;  // from which it starts
   Motion motion_;
-  bool stopped_ = false;
 };
 
 }  // namespace
@@ -359,8 +357,8 @@ std::string_view name(TimeMethod method) {
 }
 
 Motion motion_in_time(const scene::Scene& scene, const TimeSettings& settings,
-                      const ProgressCallback& progress) {
-  return InTime(scene, settings, progress).run();
+                      const control::Control& control) {
+  return InTime(scene, settings, control).run();
 }
 
 }  // namespace arcslip::observables

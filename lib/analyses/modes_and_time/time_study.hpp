@@ -3,6 +3,7 @@
 
 #include <arcslip/analyses/modes_and_time/time_results.hpp>
 #include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/control/run_control.hpp>
 
 namespace arcslip::observables {
 
@@ -23,6 +24,6 @@ struct TimeSettings {
 /// balance if that fails. A transient next to a response has Motion::departure. A motion that ends early is
 /// reported with its reason, of reasons::of_motions. Threads may share the scene.
 Motion motion_in_time(const scene::Scene& scene, const TimeSettings& settings,
-                      const ProgressCallback& progress = {});
+                      const control::Control& control = {});
 
 }  // namespace arcslip::observables

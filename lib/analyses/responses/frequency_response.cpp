@@ -7,6 +7,7 @@
 #include <arcslip/analyses/branches/resonances.hpp>
 #include <arcslip/analyses/branches/unbounded_resonance.hpp>
 #include <arcslip/analyses/responses/shooting_response.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/reasons.hpp>
 
@@ -35,12 +36,11 @@ double seconds_since(std::chrono::steady_clock::time_point began) {
 // One branch over the window [from, to], with the data to continue beyond an unbounded peak.
 class Sweep {
  public:
-  Sweep(const scene::Scene& scene, const FrequencyRange& range, const ProgressCallback& progress)
-      : Sweep(model_of(scene, [this] { return !go_on(); }), scene.frequency_unit, range, Steps::curve,
-              progress) {}
+  Sweep(const scene::Scene& scene, const FrequencyRange& range, const control::Control& control)
+      : Sweep(model_of(scene, control), scene.frequency_unit, range, Steps::curve, control) {}
 
   Sweep(std::shared_ptr<const model::Model> model, scene::FrequencyUnit unit, const FrequencyRange& range,
-        Steps steps, const ProgressCallback& progress)
+        Steps steps, const control::Control& control)
       : unit_(scene::to_rad_per_s(unit)),
         frequency_unit_(unit),
         lower_(range.from * unit_),
@@ -49,7 +49,7 @@ class Sweep {
         watched_{.stability = stability_of(range), .branch_points = all_},
         limits_(range.limits),
         steps_(steps),
-        progress_(progress),
+        control_(control),
         model_(std::move(model)) {}
 
   std::vector<ResponseBranch> run() {
@@ -75,7 +75,7 @@ class Sweep {
     const ResponseBranch& branch = coarse.front();
     std::shared_ptr<const hbm::HbmProblem> problem;
     auto all = refined_branch(branch, accuracy, [&](const Part& part) -> std::optional<ResponseBranch> {
-      if (!problem) problem = problem_of(branch, model_, lower_, upper_ - lower_, [this] { return go_on(); });
+      if (!problem) problem = problem_of(branch, model_, lower_, upper_ - lower_, control_);
       return problem ? trace_part(problem, branch, part) : std::nullopt;
     });
     if (!all) return {};
@@ -116,14 +116,13 @@ class Sweep {
             .unit = frequency_unit_,
             .limits = limits_,
             .steps = steps_,
-            .go_on = [this] { return go_on(); },
-            .at =
-                [this](double omega) {
-                  ++reported_.points;
-                  reported_.step = (omega - reported_.frequency * unit_) / unit_;
-                  reported_.frequency = omega / unit_;
-                  return go_on();
-                }};
+            .control = control_,
+            .at = [this](double omega) {
+              ++reported_.points;
+              reported_.step = (omega - reported_.frequency * unit_) / unit_;
+              reported_.frequency = omega / unit_;
+              control_.report(reported_);
+            }};
   }
 
   // displacement: the scale, m; 0: that of the first response.
@@ -132,14 +131,14 @@ class Sweep {
     Course course = course_from(from);
     ResponseBranch& result = course.result;
     reported_ = {.frequency = from / unit_};
+    control_.report(reported_);
     if (const auto on_it = unbounded_resonance(model_, from); on_it.unbounded) {
       end_unbounded(result, on_it, from);
       far_side_ = beyond_pole_at_start(from, upper_ - lower_);
       return {std::move(result), nullptr, {}};
     }
-    auto traced = frequency_branch(
-        model_, {lower_, upper_}, from, recording(course), 1, steps_, [this] { return go_on(); }, watched_,
-        displacement);
+    auto traced = frequency_branch(model_, {lower_, upper_}, from, recording(course), 1, steps_, control_,
+                                   watched_, displacement);
     result.unknown_stability = traced.unknown_stability;
     result.solver.unknowns = traced.problem->size();
     finish(traced, from, course);
@@ -156,15 +155,14 @@ class Sweep {
     for (TracedBranch& piece : pieces) branches.push_back(std::move(piece.response));
     if (!problem || branches.back().status == Status::failed || !may_have_several_responses(*model_))
       return branches;
-    const auto on = [this] { return go_on(); };
     for (const double end : {lower_, upper_})
       for (const Vector& u : further_responses(problem, hbm::parameters_at(*problem, end),
-                                               responses_at_end(branches, end), on)) {
+                                               responses_at_end(branches, end), control_)) {
         const std::vector<Vector> known = responses_at_end(branches, end);
-        if (index_of(*problem, u, known) == known.size() && go_on())
+        if (index_of(*problem, u, known) == known.size() && control_.keep_going())
           branches.push_back(trace_inwards(problem, u, end));
       }
-    if (stopped_ && branches.back().stop.reason != reasons::user) {
+    if (!control_.keep_going() && branches.back().stop.reason != reasons::user) {
       branches.back().status = Status::stopped;
       branches.back().stop = {reasons::user, 1, 1, stopped_in_search};
     }
@@ -191,9 +189,9 @@ class Sweep {
     const auto began = std::chrono::steady_clock::now();
     Course course = course_from(end);
     const bool is_up = end == lower_;
-    const auto traced = frequency_branch_part(
-        problem, {lower_, upper_}, end, is_up ? upper_ : lower_, u, recording(course), is_up ? 1 : -1,
-        Steps::curve, [this] { return go_on(); }, watched_);
+    const auto traced =
+        frequency_branch_part(problem, {lower_, upper_}, end, is_up ? upper_ : lower_, u, recording(course),
+                              is_up ? 1 : -1, Steps::curve, control_, watched_);
     ResponseBranch& result = course.result;
     result.unknown_stability = traced.unknown_stability;
     result.solver.unknowns = problem->size();
@@ -251,7 +249,8 @@ class Sweep {
       reported_.step = (omega - course.last) / unit_;
       reported_.share_done = std::clamp((omega - lower_) / (upper_ - lower_), 0.0, 1.0);
       course.last = omega;
-      return go_on();
+      control_.report(reported_);
+      return control_.keep_going();
     };
   }
 
@@ -265,9 +264,8 @@ class Sweep {
     Course course = course_from(first.omega);
     const ResponsePoint start = in_harmonics(first, branch, course.result);
     const Eigen::Map<const Vector> u(start.unknowns.data(), static_cast<Eigen::Index>(start.unknowns.size()));
-    const auto traced = frequency_branch_part(
-        problem, {lower_, upper_}, first.omega, to, u, recording(course), direction, Steps::curve,
-        [this] { return go_on(); }, watched_);
+    const auto traced = frequency_branch_part(problem, {lower_, upper_}, first.omega, to, u,
+                                              recording(course), direction, Steps::curve, control_, watched_);
     const auto& stop = traced.branch.stop;
     if (stop.reason != StopReason::boundary || stop.value != to) return {};
     estimate_bifurcations(course.result);
@@ -277,12 +275,6 @@ class Sweep {
     add(traced.branch, course.result.solver);
     course.result.solver.seconds = seconds_since(began);
     return std::move(course.result);
-  }
-
-  // Reports progress and checks for a stop, also between points, with the numbers of the last one.
-  bool go_on() {
-    if (!stopped_ && progress_ && !progress_(reported_)) stopped_ = true;
-    return !stopped_;
   }
 
   void finish(const FrequencyBranch& traced, double from, Course& course) {
@@ -327,32 +319,31 @@ class Sweep {
   MonitoredEvents watched_;
   BranchLimits limits_;
   Steps steps_;
-  const ProgressCallback& progress_;
+  const control::Control control_;
   std::shared_ptr<const model::Model> model_;
   BeyondPole far_side_{};
-  Progress reported_{};
-  bool stopped_ = false;  // by the callback
+  control::Progress reported_{};
 };
 
 }  // namespace
 
 std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const FrequencyRange& range,
-                                               const ProgressCallback& progress) {
-  if (range.method == ResponseMethod::shooting) return {shooting_response(scene, range, progress)};
-  return Sweep(scene, range, progress).run();
+                                               const control::Control& control) {
+  if (range.method == ResponseMethod::shooting) return {shooting_response(scene, range, control)};
+  return Sweep(scene, range, control).run();
 }
 
 std::vector<TracedBranch> traced_branches(std::shared_ptr<const model::Model> model,
                                           scene::FrequencyUnit unit, const FrequencyRange& range, Steps steps,
-                                          const ProgressCallback& progress) {
-  return Sweep(std::move(model), unit, range, steps, progress).run_all();
+                                          const control::Control& control) {
+  return Sweep(std::move(model), unit, range, steps, control).run_all();
 }
 
 std::optional<RefinedResponse> refined_response(const scene::Scene& scene, const FrequencyRange& range,
                                                 std::span<const ResponseBranch> coarse, double accuracy,
-                                                const ProgressCallback& progress) {
+                                                const control::Control& control) {
   if (range.method == ResponseMethod::shooting) return {};
-  return Sweep(scene, range, progress).refined(coarse, accuracy);
+  return Sweep(scene, range, control).refined(coarse, accuracy);
 }
 
 }  // namespace arcslip::observables

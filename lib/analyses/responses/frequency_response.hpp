@@ -3,7 +3,7 @@
 // folds.
 
 #include <arcslip/analyses/branches/all_branches.hpp>
-#include <arcslip/control/progress.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/stability/stability_request.hpp>
@@ -14,9 +14,6 @@
 #include <vector>
 
 namespace arcslip::observables {
-
-using results::Progress;
-using results::ProgressCallback;
 
 /// one: the branch from the lower end on; all: also those that leave it, and so on
 /// (analyses/branches/all_branches.hpp).
@@ -40,12 +37,12 @@ struct FrequencyRange {
 /// One branch, or several if an unbounded resonance divides it or all are asked for. A branch that ends early
 /// is reported with its reason. Throws std::invalid_argument unless from < to. Threads may share the scene.
 std::vector<ResponseBranch> frequency_response(const scene::Scene& scene, const FrequencyRange& range,
-                                               const ProgressCallback& progress = {});
+                                               const control::Control& control = {});
 
 /// All branches of a model, with their equations: those of Branches::all, without a message where no peak is.
 std::vector<TracedBranch> traced_branches(std::shared_ptr<const model::Model> model,
                                           scene::FrequencyUnit unit, const FrequencyRange& range, Steps steps,
-                                          const ProgressCallback& progress);
+                                          const control::Control& control);
 
 /// A response of which parts have more harmonics than others (ResponsePoint::order).
 struct RefinedResponse {
@@ -58,9 +55,9 @@ struct RefinedResponse {
 /// those in which the truncation estimate exceeds accuracy times the largest amplitude, or is flagged
 /// (analyses/branches/harmonic_refinement.hpp). Nothing where all has to be traced anew: with all branches,
 /// by shooting, for a response that does not reach the end of its window, where these parts are most of it,
-/// where another response is found at the end of a part, and after a stop by the callback.
+/// where another response is found at the end of a part, and after the end of `control`.
 std::optional<RefinedResponse> refined_response(const scene::Scene& scene, const FrequencyRange& range,
                                                 std::span<const ResponseBranch> coarse, double accuracy,
-                                                const ProgressCallback& progress = {});
+                                                const control::Control& control = {});
 
 }  // namespace arcslip::observables

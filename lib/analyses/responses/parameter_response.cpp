@@ -7,6 +7,7 @@
 #include <arcslip/analyses/branches/stop_reason.hpp>
 #include <arcslip/analyses/responses/responses_at.hpp>
 #include <arcslip/analyses/responses/shooting_response.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/reasons.hpp>
 #include <arcslip/results/text.hpp>
@@ -35,18 +36,19 @@ continuation::Monitor extreme_monitor(const results::EventKind& kind, Crossing c
 // The branches over one parameter at one frequency, each from a different response at the start of the range.
 class Traces {
  public:
-  Traces(const scene::Scene& scene, const ParameterRange& range, const ProgressCallback& report)
-      : way_(over_parameter(scene, range.over, range.from, range.to, [this] { return !go_on(); })),
+  Traces(const scene::Scene& scene, const ParameterRange& range, const control::Control& control)
+      : way_(over_parameter(scene, range.over, range.from, range.to, control)),
         unit_(scene.frequency_unit),
         omega_(range.frequency * scene::to_rad_per_s(unit_)),
         stability_(range.stability),
-        report_(report) {
+        control_(control) {
     progress_.frequency = range.frequency;
   }
 
   std::vector<ResponseBranch> run() {
-    const ResponsesAt starts = responses_at(way_.model, omega_, [this] { return go_on(); });
-    if (stopped_) return {stopped()};
+    control_.report(progress_);
+    const ResponsesAt starts = responses_at(way_.model, omega_, control_);
+    if (!control_.keep_going()) return {stopped()};
     if (!starts.unbounded.empty()) return {failed("no response is bounded", starts.unbounded)};
     if (starts.u.empty()) return {failed("no periodic response was found", starts.failure)};
     std::vector<Vector> ends, far_ends;  // of branches, at `from` and at `to`
@@ -63,7 +65,7 @@ class Traces {
       if (traced.stop.reason == StopReason::user) return branches;
     }
     if (starts.several) add_from_far_end(starts.problem, far_ends, branches);
-    if (stopped_ && branches.back().stop.reason != reasons::user) {
+    if (!control_.keep_going() && branches.back().stop.reason != reasons::user) {
       branches.back().status = Status::stopped;
       branches.back().stop = {reasons::user, way_.from, way_.to, stopped_in_search};
       return branches;
@@ -81,8 +83,8 @@ class Traces {
                         std::vector<ResponseBranch>& branches) {
     Vector p = hbm::parameters_at(*problem, omega_);
     p[way_.index] = way_.to;
-    for (const Vector& u : further_responses(problem, p, ends, [this] { return go_on(); })) {
-      if (stopped_) return;
+    for (const Vector& u : further_responses(problem, p, ends, control_)) {
+      if (!control_.keep_going()) return;
       if (index_of(*problem, u, ends) < ends.size()) continue;
       ends.push_back(u);
       ResponseBranch& result = branches.emplace_back();
@@ -105,7 +107,7 @@ class Traces {
     const ResponseBranch& branch = coarse.front();
     std::shared_ptr<const hbm::HbmProblem> problem;
     auto all = refined_branch(branch, accuracy, [&](const Part& part) -> std::optional<ResponseBranch> {
-      if (!problem) problem = problem_of(branch, way_.model, omega_, omega_, [this] { return go_on(); });
+      if (!problem) problem = problem_of(branch, way_.model, omega_, omega_, control_);
       return problem ? trace_part(problem, branch, part) : std::nullopt;
     });
     if (!all) return {};
@@ -113,12 +115,6 @@ class Traces {
   }
 
  private:
-  // Reports progress and checks for a stop, also between points, with the numbers of the last one.
-  bool go_on() {
-    if (!stopped_ && report_ && !report_(progress_)) stopped_ = true;
-    return !stopped_;
-  }
-
   // Before the first point.
   ResponseBranch stopped() const {
     ResponseBranch result = described(*way_.model, way_.name);
@@ -194,11 +190,12 @@ class Traces {
       result.points.push_back(std::move(point));
       progress_.points = static_cast<long>(result.points.size());
       progress_.share_done = way_.share(now.parameter);
-      return go_on();
+      control_.report(progress_);
+      return control_.keep_going();
     };
     Vector p = hbm::parameters_at(*problem, omega_);
     p[way_.index] = from;
-    options.go_on = [this] { return go_on(); };
+    options.control = control_;
     auto branch =
         continuation::trace(problem, {u, p, way_.index, direction}, options, std::move(monitors), record);
     result.unknown_stability = observer->unknown_stability();
@@ -214,24 +211,23 @@ class Traces {
   scene::FrequencyUnit unit_;
   double omega_;
   StabilityRequest stability_;
-  const ProgressCallback& report_;
-  Progress progress_;
-  bool stopped_ = false;
+  const control::Control control_;
+  control::Progress progress_;
 };
 
 }  // namespace
 
 std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const ParameterRange& range,
-                                               const ProgressCallback& progress) {
-  if (range.method == ResponseMethod::shooting) return {shooting_response(scene, range, progress)};
-  return Traces(scene, range, progress).run();
+                                               const control::Control& control) {
+  if (range.method == ResponseMethod::shooting) return {shooting_response(scene, range, control)};
+  return Traces(scene, range, control).run();
 }
 
 std::optional<RefinedResponse> refined_response(const scene::Scene& scene, const ParameterRange& range,
                                                 std::span<const ResponseBranch> coarse, double accuracy,
-                                                const ProgressCallback& progress) {
+                                                const control::Control& control) {
   if (range.method == ResponseMethod::shooting) return {};
-  return Traces(scene, range, progress).refined(coarse, accuracy);
+  return Traces(scene, range, control).refined(coarse, accuracy);
 }
 
 }  // namespace arcslip::observables

@@ -2,6 +2,7 @@
 // Responses over any parameter, at a fixed excitation frequency.
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/stability/stability_request.hpp>
@@ -27,12 +28,12 @@ struct ParameterRange {
 /// "fold" in that parameter, "maximum" and "minimum" of the amplitude.
 /// Throws scene::ParameterError for an unknown parameter or a range beyond its bounds.
 std::vector<ResponseBranch> parameter_response(const scene::Scene& scene, const ParameterRange& range,
-                                               const ProgressCallback& progress = {});
+                                               const control::Control& control = {});
 
 /// From the branch of a scene with fewer harmonics, that of `scene`, where only parts are traced anew, as of
 /// a frequency response. Nothing where there are several branches.
 std::optional<RefinedResponse> refined_response(const scene::Scene& scene, const ParameterRange& range,
                                                 std::span<const ResponseBranch> coarse, double accuracy,
-                                                const ProgressCallback& progress = {});
+                                                const control::Control& control = {});
 
 }  // namespace arcslip::observables

@@ -6,6 +6,7 @@
 #include <arcslip/analyses/branches/passages.hpp>
 #include <arcslip/analyses/branches/stop_reason.hpp>
 #include <arcslip/analyses/branches/unbounded_resonance.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/unresolved_resonances.hpp>
 #include <arcslip/results/reasons.hpp>
@@ -41,12 +42,12 @@ FrequencyWindow search_window(const model::Model& model, double omega) {
 // The responses at omega on branches through a wide window.
 class ResponseSearch {
  public:
-  ResponseSearch(std::shared_ptr<const model::Model> model, double omega, const GoOn& go_on,
+  ResponseSearch(std::shared_ptr<const model::Model> model, double omega, const control::Control& control,
                  ResponsesAt& found)
       : model_(std::move(model)),
         omega_(omega),
         window_(search_window(*model_, omega)),
-        go_on_(go_on),
+        control_(control),
         found_(found),
         p_(hbm::parameters_at(*found.problem, omega)),
         all_(*found.problem, p_, model::frequency) {}
@@ -56,7 +57,7 @@ class ResponseSearch {
     found_.window = window_;
     const Vector first = found_.u.front();
     const auto swept =
-        frequency_branch(model_, window_, window_.lower, {}, 1, Steps::passage, go_on_, watched_);
+        frequency_branch(model_, window_, window_.lower, {}, 1, Steps::passage, control_, watched_);
     take(swept);
     if (const auto& stop = swept.branch.stop;
         stop.reason == StopReason::boundary && stop.value != window_.upper)
@@ -80,10 +81,10 @@ class ResponseSearch {
     for (const Vector& guess : guesses)
       if (const auto u = hbm::response_near(*found_.problem, p_, guess); u && !stopped() && all_.add(*u))
         follow(*u);
-    for (const Vector& other : further_responses(found_.problem, p_, all_.u, go_on_))
+    for (const Vector& other : further_responses(found_.problem, p_, all_.u, control_))
       if (!stopped() && all_.add(other)) follow(other);
     for (int k = 0; k < most_deflations && !stopped(); ++k) {
-      const auto other = solution_nearby(*found_.problem, p_, all_.u, go_on_);
+      const auto other = solution_nearby(*found_.problem, p_, all_.u, control_);
       if (!other || !all_.add(*other)) break;
       follow(*other);
     }
@@ -92,7 +93,7 @@ class ResponseSearch {
   }
 
  private:
-  bool stopped() const { return go_on_ && !go_on_(); }
+  bool stopped() const { return !control_.keep_going(); }
 
   // The response that is found from rest comes first, as where no others are looked for.
   void put_first(const Vector& u) {
@@ -108,7 +109,7 @@ class ResponseSearch {
     for (const int direction : {1, -1}) {
       const double to = direction > 0 ? window_.upper : window_.lower;
       const auto traced = frequency_branch_part(found_.problem, window_, omega_, to, u, {}, direction,
-                                                Steps::passage, go_on_, watched_);
+                                                Steps::passage, control_, watched_);
       take(traced);
       if (traced.branch.stop.reason == StopReason::closed) return;
     }
@@ -130,7 +131,7 @@ class ResponseSearch {
   std::shared_ptr<const model::Model> model_;
   double omega_;
   FrequencyWindow window_;
-  const GoOn& go_on_;
+  const control::Control& control_;
   ResponsesAt& found_;
   const Vector p_;
   Passages all_;
@@ -156,19 +157,20 @@ continuation::Branch observe_one(const std::shared_ptr<const hbm::HbmProblem>& p
 
 class Points {
  public:
-  Points(const scene::Scene& scene, const PointSettings& settings, const ProgressCallback& report)
+  Points(const scene::Scene& scene, const PointSettings& settings, const control::Control& control)
       : scene_(scene),
         settings_(settings),
         omega_(settings.frequency * scene::to_rad_per_s(scene.frequency_unit)),
-        model_(model_of(scene, [this] { return !go_on(); })),
-        report_(report) {
+        model_(model_of(scene, control)),
+        control_(control) {
     progress_.frequency = settings.frequency;
     progress_.item = "response";
   }
 
   std::vector<PointResponse> run(std::span<const PointResponse> known) {
-    const ResponsesAt found = responses_at(model_, omega_, [this] { return go_on(); }, guesses(known));
-    if (stopped_) return {ended(Status::stopped, reasons::user, "stopped by the caller")};
+    control_.report(progress_);
+    const ResponsesAt found = responses_at(model_, omega_, control_, guesses(known));
+    if (!control_.keep_going()) return {ended(Status::stopped, reasons::user, "stopped by the caller")};
     if (!found.unbounded.empty())
       return {ended(Status::failed, reasons::unbounded,
                     "no response is bounded " + place() + ": " + found.unbounded)};
@@ -192,11 +194,6 @@ class Points {
   }
 
  private:
-  bool go_on() {
-    if (!stopped_ && report_ && !report_(progress_)) stopped_ = true;
-    return !stopped_;
-  }
-
   // In the harmonics of the scene.
   std::vector<Vector> guesses(std::span<const PointResponse> known) const {
     ResponseBranch from;
@@ -254,38 +251,37 @@ class Points {
   PointSettings settings_;
   double omega_;
   std::shared_ptr<const model::Model> model_;
-  const ProgressCallback& report_;
-  Progress progress_;
-  bool stopped_ = false;
+  const control::Control control_;
+  control::Progress progress_;
 };
 
 }  // namespace
 
-ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega, const GoOn& go_on,
-                         const std::vector<Vector>& guesses) {
+ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega,
+                         const control::Control& control, const std::vector<Vector>& guesses) {
   ResponsesAt found;
-  const auto stopped = [&] { return go_on && !go_on(); };
+  const auto stopped = [&] { return !control.keep_going(); };
   if (const auto growth = unbounded_resonance(model, omega); growth.unbounded) {
     found.unbounded = growth.message;
     return found;
   }
-  const FirstResponse first = first_response(model, omega, omega, go_on);
+  const FirstResponse first = first_response(model, omega, omega, control);
   found.problem = first.problem;
   found.failure = first.failure;
   if (stopped() || !first.u) return found;
   found.u.push_back(*first.u);
-  if (may_have_several_responses(*model)) ResponseSearch(model, omega, go_on, found).run(guesses);
+  if (may_have_several_responses(*model)) ResponseSearch(model, omega, control, found).run(guesses);
   return found;
 }
 
 ResponseOfAmplitude response_of_amplitude(const std::shared_ptr<const model::Model>& model, double omega,
-                                          double amplitude, const GoOn& go_on) {
-  const ResponsesAt all = responses_at(model, omega, go_on);
+                                          double amplitude, const control::Control& control) {
+  const ResponsesAt all = responses_at(model, omega, control);
   ResponseOfAmplitude found;
   found.problem = all.problem;
   found.failure = all.unbounded.empty() ? all.failure : all.unbounded;
   for (const Vector& u : all.u) {
-    if (go_on && !go_on()) break;
+    if (!control.keep_going()) break;
     Observer observer(all.problem);
     observer.watch_stability();
     std::optional<ResponsePoint> point;
@@ -303,9 +299,9 @@ ResponseOfAmplitude response_of_amplitude(const std::shared_ptr<const model::Mod
 }
 
 std::vector<PointResponse> point_responses(const scene::Scene& scene, const PointSettings& settings,
-                                           const ProgressCallback& progress,
+                                           const control::Control& control,
                                            std::span<const PointResponse> known) {
-  return Points(scene, settings, progress).run(known);
+  return Points(scene, settings, control).run(known);
 }
 
 }  // namespace arcslip::observables

@@ -4,6 +4,7 @@
 #include <arcslip/analyses/branches/frequency_branch.hpp>
 #include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/analyses/responses/stick_offset_range.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/observables/histories.hpp>
 #include <arcslip/results/response.hpp>
@@ -34,7 +35,8 @@ struct ResponsesAt {
 };
 /// guesses: unknowns near further ones.
 ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega,
-                         const GoOn& go_on = {}, const std::vector<continuation::Vector>& guesses = {});
+                         const control::Control& control = {},
+                         const std::vector<continuation::Vector>& guesses = {});
 
 /// Of these, the one with the amplitude (m) nearest to the one given, with its stability where that is known.
 /// Without a response: the reason.
@@ -45,7 +47,7 @@ struct ResponseOfAmplitude {
   std::string failure;
 };
 ResponseOfAmplitude response_of_amplitude(const std::shared_ptr<const model::Model>& model, double omega,
-                                          double amplitude, const GoOn& go_on = {});
+                                          double amplitude, const control::Control& control = {});
 
 /// Of sliders that stick throughout the period: the choices of their elements, or also a search for the range
 /// of what they leave open, PointResponse::offset_range.
@@ -78,7 +80,7 @@ struct PointResponse {
 /// All quantities of each response at settings.frequency, or one result with the reason why there is none.
 /// known: those of the scene with fewer harmonics, next to which responses are looked for as well.
 std::vector<PointResponse> point_responses(const scene::Scene& scene, const PointSettings& settings,
-                                           const ProgressCallback& progress = {},
+                                           const control::Control& control = {},
                                            std::span<const PointResponse> known = {});
 
 }  // namespace arcslip::observables

@@ -6,6 +6,7 @@
 #include <arcslip/analyses/branches/resonances.hpp>
 #include <arcslip/analyses/branches/unbounded_resonance.hpp>
 #include <arcslip/analyses/responses/shooting_observer.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/reasons.hpp>
 #include <arcslip/stability/state_from_harmonics.hpp>
 #include <arcslip/time/periodic/period_integrator.hpp>
@@ -41,19 +42,20 @@ struct Path {
 class Shooting {
  public:
   Shooting(Path path, double frequency_unit, const StabilityRequest& stability,
-           const ProgressCallback& progress)
+           const control::Control& control)
       : path_(std::move(path)),
         unit_(frequency_unit),
         stability_(stability),
-        progress_(progress),
+        control_(control),
         result_(described(*path_.model, path_.over)) {
     result_.harmonics.clear();
     result_.symmetry = Symmetry::none;
     reported_.frequency = path_.omega / unit_;
-    path_.options.go_on = [this] { return go_on(); };
+    path_.options.control = control_;
   }
 
   ResponseBranch run() {
+    control_.report(reported_);
     const auto began = std::chrono::steady_clock::now();
     try {
       time::check_response(*path_.model);
@@ -76,7 +78,7 @@ class Shooting {
   }
 
   void trace() {
-    const time::EventLimits limits{affordable_events, affordable_pieces, [this] { return !go_on(); }};
+    const time::EventLimits limits{affordable_events, affordable_pieces, control_};
     const time::ShootingProblem unscaled(path_.model, 1, path_.typical, path_.scale, limits);
     result_.solver.unknowns = unscaled.size();
     if (const auto growth = unbounded_resonance(path_.model, path_.omega); growth.unbounded)
@@ -84,7 +86,8 @@ class Shooting {
     Vector p = continuation::parameter_values(unscaled);
     p[model::frequency] = path_.omega;
     const time::ShootingResult first = first_motion(p, limits);
-    if (stopped_) return path_.set_end({StopReason::user, 1, 1, "stopped by the caller"}, result_);
+    if (!control_.keep_going())
+      return path_.set_end({StopReason::user, 1, 1, "stopped by the caller"}, result_);
     if (!first.converged())
       return path_.set_end({StopReason::start_failed, path_.from, 0, first.message}, result_);
     const double displacement = first.map.size > 0 ? first.map.size : 1;
@@ -109,7 +112,8 @@ class Shooting {
       reported_.step = omega / unit_ - reported_.frequency;
       reported_.frequency = omega / unit_;
       reported_.share_done = path_.share(now.parameter);
-      return go_on();
+      control_.report(reported_);
+      return control_.keep_going();
     };
     const int direction = path_.from < path_.to ? 1 : -1;
     const continuation::Branch branch =
@@ -127,35 +131,28 @@ class Shooting {
     const time::Flow flow = [&](const time::MotionState& start) {
       return integrator.map(start, equation.period());
     };
-    const FirstResponse found =
-        first_response(path_.model, path_.omega, path_.scale, [this] { return go_on(); });
+    const FirstResponse found = first_response(path_.model, path_.omega, path_.scale, control_);
     if (found.u) {
       const auto at = hbm::parameters_at(*found.problem, path_.omega);
       const time::MotionState start = time::state_of(*found.problem, *found.u, at);
       auto motion = time::shoot(flow, start, equation.omega, {.transients = 0});
-      if (motion.converged() || stopped_) return motion;
+      if (motion.converged() || !control_.keep_going()) return motion;
     }
     return time::shoot(flow, time::at_rest(equation), equation.omega);
-  }
-
-  bool go_on() {
-    stopped_ = stopped_ || (progress_ && !progress_(reported_));
-    return !stopped_;
   }
 
   Path path_;
   double unit_;
   StabilityRequest stability_;
-  const ProgressCallback& progress_;
+  const control::Control control_;
   ResponseBranch result_;
-  Progress reported_{};
-  bool stopped_ = false;  // by the callback
+  control::Progress reported_{};
 };
 
 }  // namespace
 
 ResponseBranch shooting_response(const scene::Scene& scene, const FrequencyRange& range,
-                                 const ProgressCallback& progress) {
+                                 const control::Control& control) {
   const scene::FrequencyUnit unit = scene.frequency_unit;
   const double per_unit = scene::to_rad_per_s(unit);
   const FrequencyWindow window{range.from * per_unit, range.to * per_unit};
@@ -176,13 +173,13 @@ ResponseBranch shooting_response(const scene::Scene& scene, const FrequencyRange
                 [=](const continuation::BranchStop& stop, ResponseBranch& result) {
                   observables::set_end(stop, window.lower, window.upper, unit, result);
                 }};
-  std::vector<ResponseBranch> branches{Shooting(std::move(path), per_unit, range.stability, progress).run()};
+  std::vector<ResponseBranch> branches{Shooting(std::move(path), per_unit, range.stability, control).run()};
   tell_missing_peak(*model, window, unit, branches);
   return std::move(branches.front());
 }
 
 ResponseBranch shooting_response(const scene::Scene& scene, const ParameterRange& range,
-                                 const ProgressCallback& progress) {
+                                 const control::Control& control) {
   const double per_unit = scene::to_rad_per_s(scene.frequency_unit);
   const double omega = range.frequency * per_unit;
   const OverParameter way = over_parameter(scene, range.over, range.from, range.to);
@@ -198,7 +195,7 @@ ResponseBranch shooting_response(const scene::Scene& scene, const ParameterRange
             .share = [way](double value) { return way.share(value); },
             .set_end = [way](const continuation::BranchStop& stop,
                              ResponseBranch& result) { observables::set_end(way, stop, "", result); }};
-  return Shooting(std::move(path), per_unit, range.stability, progress).run();
+  return Shooting(std::move(path), per_unit, range.stability, control).run();
 }
 
 }  // namespace arcslip::observables

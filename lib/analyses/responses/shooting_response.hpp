@@ -3,6 +3,7 @@
 // parameter.
 
 #include <arcslip/analyses/responses/parameter_response.hpp>
+#include <arcslip/control/run_control.hpp>
 
 namespace arcslip::observables {
 
@@ -12,8 +13,8 @@ namespace arcslip::observables {
 /// without mass. Throws std::invalid_argument unless from < to, and scene::ParameterError for a parameter as
 /// parameter_response().
 ResponseBranch shooting_response(const scene::Scene& scene, const FrequencyRange& range,
-                                 const ProgressCallback& progress = {});
+                                 const control::Control& control = {});
 ResponseBranch shooting_response(const scene::Scene& scene, const ParameterRange& range,
-                                 const ProgressCallback& progress = {});
+                                 const control::Control& control = {});
 
 }  // namespace arcslip::observables

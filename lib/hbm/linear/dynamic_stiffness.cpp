@@ -28,7 +28,7 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
       responses_(observed(model, coordinates.P)),
       ground_(1 + model.others.size(), model::Direction(model.dofs)),
       takes_long_(!coordinates.modes && coordinates.linear() > quick_factors),
-      stop_(model.stop),
+      control_(model.control),
       parts_(model, coordinates.P, harmonics, coordinates.modes),
       last_p_(Vector::Constant(static_cast<Eigen::Index>(model.parameters.size()), std::nan(""))),
       y_(r_ + l_),
@@ -54,7 +54,7 @@ bool DynamicStiffness::move_to(In p) {
     at.condensed.forced = (at.force.array() != 0.0).any();
   }
   for (Harmonic& at : harmonics_)
-    if ((takes_long_ && scene::is_asked(stop_)) || !condense(at)) return false;
+    if ((takes_long_ && !control_.keep_going()) || !condense(at)) return false;
   last_p_ = p.head(last_p_.size());
   return true;
 }

@@ -6,6 +6,7 @@
 // Z_n need not be symmetric, as with gyroscopic forces, nor of the same K for every n, as in a sector of a
 // ring.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/linear/condensation.hpp>
 #include <arcslip/hbm/linear/coordinates.hpp>
 
@@ -24,7 +25,7 @@ class DynamicStiffness {
   DynamicStiffness(const model::Model& model, const Coordinates& coordinates, const Harmonics& harmonics);
 
   /// False at an undamped resonance of the linear coordinates, a pole of the condensed stiffness, and after a
-  /// stop (Model::stop).
+  /// end of Model::control.
   bool move_to(In p);
   double base_frequency() const { return parts_.base_frequency(); }  // rad/s, at the last place
 
@@ -84,8 +85,8 @@ class DynamicStiffness {
   const int size_;                        // coefficients of a coordinate
   Eigen::MatrixXd responses_;             // directions in y, a column for each place
   std::vector<model::Direction> ground_;  // along which the displacement of the ground belongs to each
-  bool takes_long_;                       // each harmonic: then stop_ is asked in between
-  scene::StopRequest stop_;
+  bool takes_long_;                       // each harmonic: then control_ is asked in between
+  control::Control control_;
   LinearParts parts_;
   mutable std::optional<ModalCondensation> modal_;
   std::optional<Condensation> direct_;  // without modes, or where too many parts differ from them

@@ -19,7 +19,7 @@
 namespace arcslip::scene {
 namespace {
 
-using detail::ChildOutput;
+using control::ChildOutput;
 using file::listed;
 
 constexpr std::size_t header = 128;  // bytes before the first element of version 5
@@ -66,8 +66,8 @@ std::optional<std::vector<std::size_t>> numbers(std::string_view text) {
 class MatFileReader {
  public:
   MatFileReader(const std::string& path, std::string_view text, const std::string& name,
-                const std::string& reported, const StopRequest& stop)
-      : path_(path), text_(text), name_(name), reported_(reported), stop_(stop) {}
+                const std::string& reported, const control::Control& control)
+      : path_(path), text_(text), name_(name), reported_(reported), control_(control) {}
 
   SparseMatrix read() {
     check_file();
@@ -83,7 +83,7 @@ class MatFileReader {
  private:
   [[noreturn]] void fail(const std::string& cause) const { throw MatrixError(reported_ + ": " + cause); }
   void listen() const {
-    if (is_asked(stop_)) throw Interrupted("interrupted while " + reported_ + " was read");
+    if (!control_.keep_going()) throw control::Interrupted("interrupted while " + reported_ + " was read");
   }
 
   // matio takes whatever it does not know for a file of version 4, goes by the number of the version alone,
@@ -132,7 +132,7 @@ class MatFileReader {
     std::vector<std::string> arguments{path_};
     if (!name_.empty()) arguments.push_back(name_);
     try {
-      return ChildOutput({found.path, arguments, environment()}, {longest_time(text_.size()), stop_});
+      return ChildOutput({found.path, arguments, environment()}, {longest_time(text_.size()), control_});
     } catch (const std::system_error& error) {
       fail("found a MATLAB file, which is read by the program " + file::quoted(found.path) +
            ", which cannot be started: " + error.code().message());
@@ -156,7 +156,7 @@ class MatFileReader {
   [[noreturn]] void refuse(ChildOutput& answer) const {
     using enum ChildOutput::End;
     listen();
-    if (answer.end() == stopped) throw Interrupted("interrupted while " + reported_ + " was read");
+    if (answer.end() == stopped) throw control::Interrupted("interrupted while " + reported_ + " was read");
     if (answer.end() == out_of_time)
       fail("found a file that is not read within " + std::to_string(longest_time(text_.size()).count()) +
            " s; it may be damaged");
@@ -290,7 +290,7 @@ class MatFileReader {
   const std::string_view text_;
   const std::string& name_;
   std::string reported_;
-  const StopRequest& stop_;
+  const control::Control& control_;
 };
 
 }  // namespace
@@ -301,8 +301,8 @@ bool is_mat_file(std::string_view path, std::string_view text) {
 }
 
 SparseMatrix read_mat_file(const std::string& path, std::string_view text, const std::string& variable,
-                           const std::string& file, const StopRequest& stop) {
-  return MatFileReader(path, text, variable, file, stop).read();
+                           const std::string& file, const control::Control& control) {
+  return MatFileReader(path, text, variable, file, control).read();
 }
 
 }  // namespace arcslip::scene

@@ -6,7 +6,7 @@
 // it is looked for next to the running program, in ../libexec/arcslip and ../bin from there, in the same
 // places from the shared library, and in PATH. What it sends is checked, and where it dies nothing else does.
 
-#include <arcslip/control/stop_request.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/sparse_matrix.hpp>
 
 #include <string>
@@ -18,11 +18,11 @@ namespace arcslip::scene {
 bool is_mat_file(std::string_view path, std::string_view text);
 
 /// path: of the file, text: its content. variable: its name; empty: the only one in the file. file: the name
-/// in messages. Throws Interrupted, and MatrixError (matrix_market.hpp), which names the variable, for
-/// whatever is no such matrix: of other types, damaged, too large or with data in other files, with entries
-/// that are given twice, outside of the matrix or not finite; and where arcslip-mat is not there or cannot be
-/// started.
+/// in messages. Throws control::Interrupted, and MatrixError (matrix_market.hpp), which names the variable,
+/// for whatever is no such matrix: of other types, damaged, too large or with data in other files, with
+/// entries that are given twice, outside of the matrix or not finite; and where arcslip-mat is not there or
+/// cannot be started.
 SparseMatrix read_mat_file(const std::string& path, std::string_view text, const std::string& variable,
-                           const std::string& file, const StopRequest& stop = {});
+                           const std::string& file, const control::Control& control = {});
 
 }  // namespace arcslip::scene

@@ -52,8 +52,8 @@ MatrixFile read_matrix_file(const Location& place, const std::string& wanted, co
     const auto at = std::filesystem::path(reading.source.folder.path) / found.file.path;
     found.matrix = std::make_shared<const SparseMatrix>(
         of_matlab
-            ? read_mat_file(at.string(), text, found.variable, shown(found.file.path), reading.source.stop)
-            : read_matrix_market(text, shown(found.file.path), reading.source.stop));
+            ? read_mat_file(at.string(), text, found.variable, shown(found.file.path), reading.source.control)
+            : read_matrix_market(text, shown(found.file.path), reading.source.control));
     reading.source.matrices.push_back({found.file.text, found.variable, found.matrix});
   } catch (const MatrixError& error) {
     faults.add(place.pointer, error.what());

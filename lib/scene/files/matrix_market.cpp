@@ -55,8 +55,8 @@ std::optional<double> real(std::string_view word) {
 
 class MatrixMarketReader {
  public:
-  MatrixMarketReader(std::string_view text, const std::string& file, const StopRequest& stop)
-      : text_(text), bytes_(text.size()), file_(file), stop_(stop) {}
+  MatrixMarketReader(std::string_view text, const std::string& file, const control::Control& control)
+      : text_(text), bytes_(text.size()), file_(file), control_(control) {}
 
   SparseMatrix read() {
     read_banner();
@@ -85,8 +85,8 @@ class MatrixMarketReader {
   bool next_words() {
     words_.clear();
     while (words_.empty() && !text_.empty()) {
-      if (++line_ % lines_per_question == 0 && is_asked(stop_))
-        throw Interrupted("interrupted while " + file_ + " was read");
+      if (++line_ % lines_per_question == 0 && !control_.keep_going())
+        throw control::Interrupted("interrupted while " + file_ + " was read");
       const std::size_t end = std::min(text_.find('\n'), text_.size());
       std::string_view line = text_.substr(0, end);
       text_.remove_prefix(std::min(end + 1, text_.size()));
@@ -240,7 +240,7 @@ class MatrixMarketReader {
   std::string_view text_;
   std::size_t bytes_;
   const std::string& file_;
-  const StopRequest& stop_;
+  const control::Control& control_;
   std::size_t line_ = 0;
   std::vector<std::string_view> words_;
   bool coordinate_ = true;
@@ -252,8 +252,9 @@ class MatrixMarketReader {
 
 }  // namespace
 
-SparseMatrix read_matrix_market(std::string_view text, const std::string& file, const StopRequest& stop) {
-  return MatrixMarketReader(text, file, stop).read();
+SparseMatrix read_matrix_market(std::string_view text, const std::string& file,
+                                const control::Control& control) {
+  return MatrixMarketReader(text, file, control).read();
 }
 
 }  // namespace arcslip::scene

@@ -11,7 +11,7 @@
 // "coordinate" or "array" (all values, column by column), "real" or "integer", "general", "symmetric" or
 // "skew-symmetric". Of a symmetric matrix one triangle is given, the lower one in an array.
 
-#include <arcslip/control/stop_request.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/sparse_matrix.hpp>
 
 #include <cstddef>
@@ -31,9 +31,10 @@ class MatrixError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// text: content of the file; file: its name in messages. Throws Interrupted, and MatrixError for whatever is
-/// not of the format, numbers that are not finite, entries outside of the matrix or given twice, and too few
-/// or too many of them.
-SparseMatrix read_matrix_market(std::string_view text, const std::string& file, const StopRequest& stop = {});
+/// text: content of the file; file: its name in messages. Throws control::Interrupted, and MatrixError for
+/// whatever is not of the format, numbers that are not finite, entries outside of the matrix or given twice,
+/// and too few or too many of them.
+SparseMatrix read_matrix_market(std::string_view text, const std::string& file,
+                                const control::Control& control = {});
 
 }  // namespace arcslip::scene

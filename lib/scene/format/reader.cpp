@@ -1,4 +1,5 @@
 // A scene file, section by section, in the order of the format.
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/consistency.hpp>
 #include <arcslip/scene/files/manifest.hpp>
 #include <arcslip/scene/format/repeat.hpp>
@@ -300,17 +301,20 @@ Scene read(std::istream& in, const Catalogue& catalogue, const std::string& fold
 }
 
 Scene read(std::string_view text, const Catalogue& catalogue, const std::string& folder,
-           std::vector<NamedFile> known, const StopRequest& stop) {
-  return file::read_scene(file::read_tree(text, stop), catalogue, {{folder}, stop, std::move(known)});
+           std::vector<NamedFile> known, const control::Control& control) {
+  Scene scene =
+      file::read_scene(file::read_tree(text, control), catalogue, {{folder}, control, std::move(known)});
+  scene.catalogue.all = std::make_shared<const Catalogue>(catalogue);
+  return scene;
 }
 
 Scene read_file(const std::string& path, const Catalogue& catalogue) {
   return read_file(path, catalogue, {});
 }
 
-Scene read_file(const std::string& path, const Catalogue& catalogue, const StopRequest& stop) {
-  Scene scene = file::read_scene(file::read_tree(file::read_text(path, stop), stop), catalogue,
-                                 {{std::filesystem::path(path).parent_path().string()}, stop});
+Scene read_file(const std::string& path, const Catalogue& catalogue, const control::Control& control) {
+  Scene scene = file::read_scene(file::read_tree(file::read_text(path, control), control), catalogue,
+                                 {{std::filesystem::path(path).parent_path().string()}, control});
   scene.catalogue.all = std::make_shared<const Catalogue>(catalogue);
   const ManifestDoubts doubts = manifest_doubts(scene, path);
   if (!doubts.interrupted.empty()) throw SceneError({{"", doubts.interrupted.front()}});

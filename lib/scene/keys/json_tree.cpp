@@ -102,8 +102,8 @@ bool is_not_finite(std::string_view token) {
 
 class TreeBuilder : public nlohmann::json_sax<Json> {
  public:
-  TreeBuilder(Source& source, Node& root, const StopRequest& stop)
-      : source_(source), root_(root), stop_(stop) {}
+  TreeBuilder(Source& source, Node& root, const control::Control& control)
+      : source_(source), root_(root), control_(control) {}
 
   bool null() override { return add(Node{nullptr}); }
   bool boolean(bool value) override { return add(Node{value}); }
@@ -148,8 +148,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
       fail(source_.place() + ": found more than " + std::to_string(largest_count) +
            " values, must be at most that many");
     }
-    if (count_ % between_questions == 0 && is_asked(stop_))
-      throw Interrupted("interrupted while the scene was read");
+    if (count_ % between_questions == 0 && !control_.keep_going())
+      throw control::Interrupted("interrupted while the scene was read");
     if (open_.empty()) {
       root_ = std::move(node);
       return &root_;
@@ -179,20 +179,20 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
 
   Source& source_;
   Node& root_;
-  const StopRequest& stop_;
+  const control::Control& control_;
   std::vector<Node*> open_;
   std::size_t count_ = 0;
 };
 
 }  // namespace
 
-Node read_tree(std::string_view text, const StopRequest& stop) {
+Node read_tree(std::string_view text, const control::Control& control) {
   Source source(text);
   const std::size_t nul = text.find('\0');  // nlohmann's parser takes it for the end
   if (nul != std::string_view::npos)
     fail(source.place_of(nul + 1) + ": found a NUL byte, must be JSON in UTF-8, which has none");
   Node root;
-  TreeBuilder builder(source, root, stop);
+  TreeBuilder builder(source, root, control);
   Json::sax_parse(SourceIterator(source), SourceIterator(), &builder);
   return root;
 }

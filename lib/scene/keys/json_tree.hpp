@@ -1,7 +1,7 @@
 #pragma once
 // A JSON text as an ordered tree that keeps duplicate keys, so that every fault of a file can be reported.
 
-#include <arcslip/control/stop_request.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <cstddef>
 #include <string>
@@ -36,8 +36,8 @@ struct Member {
 };
 
 /// Reads one JSON text. Throws SceneError with one fault, including line and column, if it is not JSON or
-/// exceeds largest_depth or largest_count; Interrupted if `stop` is requested.
-Node read_tree(std::string_view text, const StopRequest& stop = {});
+/// exceeds largest_depth or largest_count; control::Interrupted if `control` ends.
+Node read_tree(std::string_view text, const control::Control& control = {});
 
 /// The text of a tree, indented by two, compact where it fits on one line. Numbers have the shortest
 /// exact text.

@@ -77,7 +77,7 @@ std::string read_text(std::istream& in) {
   return text;
 }
 
-std::string read_text(const std::string& path, const StopRequest& stop, const std::string& noun,
+std::string read_text(const std::string& path, const control::Control& control, const std::string& noun,
                       std::size_t largest) {
   namespace fs = std::filesystem;
   std::error_code error;
@@ -96,7 +96,8 @@ std::string read_text(const std::string& path, const StopRequest& stop, const st
   std::string text;
   while (file.read_some(text)) {
     check_size(text, noun, largest);
-    if (is_asked(stop)) throw Interrupted("interrupted while " + results::visible(path) + " was read");
+    if (!control.keep_going())
+      throw control::Interrupted("interrupted while " + results::visible(path) + " was read");
   }
   if (errno != 0) {
     throw FileError(results::visible(path) + ": reading the " + noun + " failed after " +

@@ -45,7 +45,7 @@ std::optional<NamedFile> read_file_of(const Location& place, const std::string& 
   try {
     const auto at = (std::filesystem::path(reading.source.folder.path) / *path).string();
     reading.source.read.push_back(
-        {*path, std::make_shared<const std::string>(read_text(at, reading.source.stop, "file", largest))});
+        {*path, std::make_shared<const std::string>(read_text(at, reading.source.control, "file", largest))});
     return reading.source.read.back();
   } catch (const FileError& error) {
     fault(error.what());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <arcslip/control/progress.hpp>
+#include <arcslip/control/run_control.hpp>
 
 namespace arcslip::studies {
 
@@ -9,10 +9,10 @@ struct RunOptions {
   bool points = true;         // false: only events and facts, no rows of points and histories
   bool coefficients = false;  // points and events with the Fourier coefficients a_n, b_n of the response
   bool figures = false;
-  results::ProgressCallback progress{};  // false stops; the results so far are kept
+  control::Control control{};  // at its end the results so far are kept
   // For combinations of for_each, or load cases of one optimum, that are computed at the same time; where
-  // there are fewer of these, for the elements of each response. Results are those of one thread. progress is
-  // then called by several threads, one at a time.
+  // there are fewer of these, for the elements of each response. Results are those of one thread. control
+  // then reports from several threads, one at a time.
   int threads = 1;
 };
 

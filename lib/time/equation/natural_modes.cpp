@@ -1,6 +1,7 @@
 #include <arcslip/time/equation/natural_modes.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -22,7 +23,7 @@ std::string name_of(const EquationOfMotion& equation, Eigen::Index dof) {
 }  // namespace
 
 std::shared_ptr<const NaturalModes> natural_modes(const EquationOfMotion& equation,
-                                                  const std::function<bool()>& stop) {
+                                                  const control::Control& control) {
   const Matrix &M = equation.M, K = 0.5 * (equation.K + equation.K.transpose());
   const auto fail = [&](const Vector& motion, const std::string& reason) {
     Eigen::Index dof = 0;
@@ -34,7 +35,7 @@ std::shared_ptr<const NaturalModes> natural_modes(const EquationOfMotion& equati
   const auto modes_of = std::make_shared<NaturalModes>();
   NaturalModes& found = *modes_of;
   const auto by_mass = continuation::symmetric_modes(M, K + shift * M);
-  if (stop && stop()) return nullptr;
+  if (!control.keep_going()) return nullptr;
   Eigen::Index none = 0;
   if (by_mass.values.size() == M.rows())
     while (none < M.rows() && by_mass.values[none] * shift <= massless_share) ++none;

@@ -1,9 +1,9 @@
 #pragma once
 // The natural modes of the structure without contacts and without dampers.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/time/equation/equation_of_motion.hpp>
 
-#include <functional>
 #include <limits>
 #include <memory>
 
@@ -16,10 +16,10 @@ struct NaturalModes {
   Matrix V, without_mass;
 };
 
-/// stop: asked between its two decompositions; if it is true, there are none. Throws SingularMass where a
-/// motion without mass has a damper, or no spring of its own.
+/// control: asked between its two decompositions; if it has ended, there are none. Throws SingularMass where
+/// a motion without mass has a damper, or no spring of its own.
 std::shared_ptr<const NaturalModes> natural_modes(const EquationOfMotion& equation,
-                                                  const std::function<bool()>& stop = {});
+                                                  const control::Control& control = {});
 
 /// Which of them have inertia: of the lowest `most` those up to a natural frequency, rad/s, and the first ten
 /// in any case.

@@ -20,12 +20,12 @@
 // those of what it follows from there on; the forces are continuous, so that nothing jumps. Source:
 // docs/theory/09-event-driven.md.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/time/equation/parameter_derivatives.hpp>
 #include <arcslip/time/equation/period_map.hpp>
 #include <arcslip/time/equation/time_history.hpp>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -51,7 +51,7 @@ enum class EndReason {
   events,      // number of events >= EventLimits::events
   pieces,      // number of pieces >= EventLimits::pieces
   not_finite,  // the motion overflowed
-  stopped,     // by EventLimits::stop
+  stopped,     // by EventLimits::control
 };
 
 /// Limits of one integration.
@@ -59,7 +59,7 @@ struct EventLimits {
   long events = 1'000'000;
   long pieces =
       20'000'000;  // power series: about one for each radian of the fastest mode, and one for each event
-  std::function<bool()> stop{};  // called at intervals; true ends it
+  control::Control control{};  // asked at intervals
 };
 
 /// One element with a contact over the interval.

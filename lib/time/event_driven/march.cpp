@@ -55,7 +55,7 @@ March::March(const EquationOfMotion& equation, const EventLimits& limits)
     : equation_(equation),
       limits_(limits),
       contacts_(contacts_of(equation)),
-      linear_(equation, parts_of(contacts_), limits.stop) {
+      linear_(equation, parts_of(contacts_), limits.control) {
   std::size_t most = 0;
   for (const Contact& contact : contacts_) most = std::max(most, contact.along.size());
   displacement_.resize(most);
@@ -151,11 +151,11 @@ bool March::find(double to) {
   const double multiplications =
       2.0 * LinearMotion::order * static_cast<double>(X_.rows()) * static_cast<double>(X_.size());
   const bool asks = multiplications > long_piece || pieces_ % pieces_per_question == 0;
-  if (asks && limits_.stop && limits_.stop()) reason_ = EndReason::stopped;
+  if (asks && !limits_.control.keep_going()) reason_ = EndReason::stopped;
   if (reason_ != EndReason::reached) return false;
   end_ = std::min(t_ + linear_.longest(), to);
   h_ = end_ - t_;  // of the rounded time, or the force would lead or lag by more with every piece
-  if (!linear_.expand(t_, h_, X_, V_, g_, limits_.stop)) {
+  if (!linear_.expand(t_, h_, X_, V_, g_, limits_.control)) {
     reason_ = EndReason::stopped;
     return false;
   }

@@ -1,5 +1,6 @@
 #include <arcslip/time/event_driven/taylor_propagator.hpp>
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/time/event_driven/event_driven.hpp>
 
 #include <algorithm>
@@ -75,9 +76,9 @@ double largest_skew(const continuation::Cholesky& mass, const LinearMotion::Part
 }  // namespace
 
 std::optional<double> fastest(const EquationOfMotion& equation, const std::vector<LinearMotion::Part>& parts,
-                              const std::function<bool()>& stop) {
+                              const control::Control& control) {
   const auto stopped = [&, n = static_cast<double>(equation.dofs())] {
-    return stop && n * n * n > long_term && stop();
+    return n * n * n > long_term && !control.keep_going();
   };
   if (stopped()) return {};
   require_mass(equation);
@@ -102,9 +103,9 @@ std::optional<double> fastest(const EquationOfMotion& equation, const std::vecto
 }
 
 LinearMotion::LinearMotion(const EquationOfMotion& equation, std::vector<Part> parts,
-                           const std::function<bool()>& stop)
+                           const control::Control& control)
     : equation_(equation), parts_(std::move(parts)) {
-  const auto highest = fastest(equation, parts_, stop);
+  const auto highest = fastest(equation, parts_, control);
   stopped_ = !highest;
   if (stopped_) return;
   double most = *highest;
@@ -204,9 +205,9 @@ void LinearMotion::add_rate(std::size_t k, Matrix& next) const {
 }
 
 bool LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g,
-                          const std::function<bool()>& stop) {
+                          const control::Control& control) {
   const double multiplications = static_cast<double>(stiffness_.size()) * static_cast<double>(X.cols());
-  const bool takes_long = stop && multiplications > long_term;
+  const bool takes_long = control.can_end() && multiplications > long_term;
   t_ = t;
   h_ = h;
   expand_force(t, h);
@@ -214,7 +215,7 @@ bool LinearMotion::expand(double t, double h, const Matrix& X, const Matrix& V, 
   X_[0] = X;
   V_[0] = V;
   for (std::size_t k = 0; k < order; ++k) {
-    if (takes_long && stop()) return false;
+    if (takes_long && !control.keep_going()) return false;
     const double factor = h / static_cast<double>(k + 1);
     X_[k + 1] = factor * V_[k];
     Matrix& next = V_[k + 1];

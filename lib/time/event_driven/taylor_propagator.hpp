@@ -16,10 +16,10 @@
 // (time/equation/parameter_derivatives.hpp).
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/time/equation/parameter_derivatives.hpp>
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -36,10 +36,10 @@ class LinearMotion {
     std::vector<Matrix> stiffnesses;
   };
 
-  /// Throws SingularMass, with the degree of freedom. stop: asked before each decomposition that takes long;
-  /// if it is true, stopped() is, and there is no motion.
+  /// Throws SingularMass, with the degree of freedom. control: asked before each decomposition that takes
+  /// long; if it has ended, stopped() is true, and there is no motion.
   LinearMotion(const EquationOfMotion& equation, std::vector<Part> parts,
-               const std::function<bool()>& stop = {});
+               const control::Control& control = {});
 
   bool stopped() const { return stopped_; }
 
@@ -55,10 +55,10 @@ class LinearMotion {
   void set_stiffness(std::size_t a, const Matrix& stiffness, const Matrix* rate = nullptr);
 
   /// The series from t over h <= longest(). X, V: dofs x columns; g: a row for each direction of each
-  /// automaton, N. stop: asked before each term where one takes long; if it is true, the result is false, and
-  /// there is no series.
+  /// automaton, N. control: asked before each term where one takes long; if it has ended, the result is
+  /// false, and there is no series.
   bool expand(double t, double h, const Matrix& X, const Matrix& V, const Matrix& g,
-              const std::function<bool()>& stop = {});
+              const control::Control& control = {});
 
   /// X and V at s.
   void at(double s, Matrix& X, Matrix& V) const;
@@ -106,9 +106,9 @@ class LinearMotion {
 };
 
 /// An upper bound of the angular frequencies of the free structure, rad/s, damping included, whatever the
-/// modes of the automata. Throws SingularMass, with the degree of freedom. stop: as for LinearMotion; none:
-/// stopped.
+/// modes of the automata. Throws SingularMass, with the degree of freedom. control: as for LinearMotion;
+/// none: stopped.
 std::optional<double> fastest(const EquationOfMotion& equation, const std::vector<LinearMotion::Part>& parts,
-                              const std::function<bool()>& stop = {});
+                              const control::Control& control = {});
 
 }  // namespace arcslip::time

@@ -1,5 +1,6 @@
 #include <arcslip/time/newmark/newmark_periods.hpp>
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/time/newmark/resting_slider.hpp>
 
 #include <algorithm>
@@ -219,7 +220,7 @@ std::pair<results::Reason, std::string> failure_of(Solved solved, double time) {
 }
 
 PeriodMotion newmark_periods(Newmark& newmark, const MotionState& start, long count, bool with_history,
-                             bool first, const std::function<bool()>& stop) {
+                             bool first, const control::Control& control) {
   Solved solved = Solved::yes;
   if (first)
     solved = newmark.begin(start);
@@ -231,7 +232,7 @@ PeriodMotion newmark_periods(Newmark& newmark, const MotionState& start, long co
   while (solved == Solved::yes && newmark.step_number() < steps && !stopped) {
     solved = newmark.step();
     if (solved == Solved::yes) observation.after_step();
-    stopped = stop && newmark.step_number() % steps_per_question == 0 && stop();
+    stopped = newmark.step_number() % steps_per_question == 0 && !control.keep_going();
   }
   PeriodMotion result = observation.end();
   std::tie(result.failure, result.message) = failure_of(solved, newmark.time());

@@ -1,5 +1,6 @@
 #include <arcslip/time/periodic/period_integrator.hpp>
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/reasons.hpp>
 #include <arcslip/time/newmark/newmark_periods.hpp>
 
@@ -16,13 +17,13 @@ using time::MotionState;
 using time::PeriodMotion;
 
 Integrator in_steps(const EquationOfMotion& equation, const MotionState& start, long steps,
-                    const std::function<bool()>& stop) {
+                    const control::Control& control) {
   const auto method = std::make_shared<time::Newmark>(equation, steps);
   Integrator result{"newmark", false, {}, {}, {}};
   std::tie(result.failure, result.message) = time::failure_of(method->begin(start), 0);
   result.start = method->state();
-  result.periods = [method, stop](const MotionState& from, long count, bool with_history) {
-    return time::newmark_periods(*method, from, count, with_history, false, stop);
+  result.periods = [method, control](const MotionState& from, long count, bool with_history) {
+    return time::newmark_periods(*method, from, count, with_history, false, control);
   };
   result.flow = [method](const MotionState& from) { return time::newmark_map(*method, from); };
   return result;

@@ -1,12 +1,12 @@
 #pragma once
 // One way to integrate one equation of motion over periods: between events, exactly, or in Newmark's steps.
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/results/reason.hpp>
 #include <arcslip/time/equation/period_motion.hpp>
 #include <arcslip/time/event_driven/event_driven.hpp>
 #include <arcslip/time/periodic/steady_state_search.hpp>
 
-#include <functional>
 #include <string>
 
 namespace arcslip::observables {
@@ -21,10 +21,10 @@ struct Integrator {
   time::Flow flow{};
 };
 
-/// steps: per period, those of the method and of the history. stop: asked now and then; true ends a period
-/// with the reason user.
+/// steps: per period, those of the method and of the history. control: asked now and then; its end is that of
+/// a period with the reason user.
 Integrator in_steps(const time::EquationOfMotion& equation, const time::MotionState& start, long steps,
-                    const std::function<bool()>& stop);
+                    const control::Control& control);
 
 /// steps: per period, of the history. Throws time::NotPiecewiseLinear, time::SingularMass.
 Integrator between_events(const time::EquationOfMotion& equation, const time::MotionState& start, long steps,

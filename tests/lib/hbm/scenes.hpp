@@ -2,6 +2,7 @@
 // Scenes for tests, and single responses of them.
 
 #include "catalogue.hpp"
+#include "controls.hpp"
 #include "environment.hpp"
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
@@ -110,20 +111,20 @@ inline scene::Scene duffing_jenkins(int order = 1) {
 }
 
 /// The frequency responses of a scene in its window, for each combination of the lists.
-inline std::vector<observables::ResponseBranch> frequency_responses(
-    const scene::Scene& s, const scene::ValueLists& lists,
-    const observables::ProgressCallback& progress = {}) {
-  const auto compute = [](const studies::Case& at, const observables::ProgressCallback& tell) {
-    return observables::frequency_response(at.scene, window(at.scene), tell);
+inline std::vector<observables::ResponseBranch> frequency_responses(const scene::Scene& s,
+                                                                    const scene::ValueLists& lists,
+                                                                    const control::Control& control = {}) {
+  const auto compute = [](const studies::Case& at, const control::Control& of_case) {
+    return observables::frequency_response(at.scene, window(at.scene), of_case);
   };
-  return studies::for_each<observables::ResponseBranch>(s, lists, compute, progress);
+  return studies::for_each<observables::ResponseBranch>(s, lists, compute, control);
 }
 
 /// The response at one frequency, in the scene's unit.
 inline observables::ResponsePoint response_at(scene::Scene s, double frequency) {
   const auto branches = observables::frequency_response(
       s, {frequency, 1.001 * frequency},
-      [](const observables::Progress& progress) { return progress.points < 1; });
+      controls::reporting([](const control::Progress& progress) { return progress.points < 1; }));
   if (branches.front().points.empty()) throw std::runtime_error(branches.front().stop.message);
   return branches.front().points.front();
 }

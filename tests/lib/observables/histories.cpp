@@ -1,6 +1,7 @@
 // Motion and forces over one period.
 
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
@@ -24,7 +25,7 @@ namespace {
 ResponseBranch beginning_at(const scene::Scene& s, double frequency) {
   return observables::frequency_response(
              s, {frequency, 1.001 * frequency},
-             [](const observables::Progress& progress) { return progress.points < 1; })
+             controls::reporting([](const control::Progress& progress) { return progress.points < 1; }))
       .front();
 }
 

@@ -1,5 +1,6 @@
 // Hill's method next to closed forms and next to the multipliers in time.
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
@@ -126,5 +127,5 @@ TEST_CASE("Hill's method: no multipliers along a motion that is not finite or to
   for (const double amplitude : {double(NAN), 1e200, double(INFINITY), 1e9})
     CHECK_FALSE(hill.compute(1, {1}, cosine::along(equation, {1}, amplitude)));
   CHECK(hill.compute(1, {1}, cosine::along(equation, {1}, 0.5)));
-  CHECK_FALSE(hill.compute(1, {1}, cosine::along(equation, {1}, 0.5), [] { return false; }));
+  CHECK_FALSE(hill.compute(1, {1}, cosine::along(equation, {1}, 0.5), controls::stopped()));
 }

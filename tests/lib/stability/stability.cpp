@@ -1,6 +1,7 @@
 // Stability along branches: published bifurcations, and multipliers and their error next to the exact motion.
 // ARCSLIP_SCENES is the number of random structures; by default 30.
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
@@ -236,7 +237,7 @@ TEST_CASE("multipliers of random structures are within five times their error of
       CAPTURE(seed, part);
       const auto branches = observables::frequency_response(
           s, {at, 1.001 * at, true},
-          [](const observables::Progress& progress) { return progress.points < 1; });
+          controls::reporting([](const control::Progress& progress) { return progress.points < 1; }));
       CAPTURE(branches.front().stop.message);
       REQUIRE_FALSE(branches.front().points.empty());
       const auto& point = branches.front().points.front();

@@ -1,5 +1,6 @@
 // Reduced structures next to the whole ones, and next to natural frequencies in closed form.
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/structure/matrices.hpp"
 
@@ -163,8 +164,8 @@ TEST_CASE("a reduction reports the row at which matrices are not positive defini
     CHECK(what.find("is not positive definite") != std::string::npos);
     CHECK((what.find("at row 2") != std::string::npos || what.find("at row 3") != std::string::npos));
   }
-  CHECK_THROWS_AS(structure::reduce(structures::beam(30, true), {5}, 100, [] { return true; }),
-                  scene::Interrupted);
+  CHECK_THROWS_AS(structure::reduce(structures::beam(30, true), {5}, 100, controls::stopped()),
+                  control::Interrupted);
 }
 
 TEST_CASE("a reduced beam has the natural frequencies of the closed form") {

@@ -1,5 +1,6 @@
 // The study "accuracy": errors next to closed forms and exact numbers, and what it reports.
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
@@ -120,8 +121,9 @@ TEST_CASE("a comparison without a peak fails with the reason, one that is stoppe
   CHECK(none.stop.reason == observables::reasons::start_failed);
   CHECK(none.stop.message.find("no peak in the window") != std::string::npos);
   CHECK(none.trials.empty());
-  const Accuracy stopped = observables::accuracy(scenes::paper(7, 3), {18, 22, 9},
-                                                 [](const results::Progress& now) { return now.points < 3; });
+  const Accuracy stopped =
+      observables::accuracy(scenes::paper(7, 3), {18, 22, 9},
+                            controls::reporting([](const control::Progress& now) { return now.points < 3; }));
   CHECK(stopped.status == observables::Status::stopped);
   CHECK(stopped.stop.reason == observables::reasons::user);
   CHECK(stopped.trials.size() == 3);

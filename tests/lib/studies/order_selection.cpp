@@ -1,6 +1,7 @@
 // The order of the harmonics by an accuracy: what is reached next to exact numbers, and what is reported
 // where it is not.
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
@@ -32,9 +33,9 @@ using Json = nlohmann::json;
 namespace {
 
 /// The results of all studies.
-Json results_json(const scene::Scene& s, const results::ProgressCallback& progress = {}) {
+Json results_json(const scene::Scene& s, const control::Control& control = {}) {
   std::ostringstream text;
-  results::write_json(text, studies::run(s, {.progress = progress}));
+  results::write_json(text, studies::run(s, {.control = control}));
   return Json::parse(text.str());
 }
 
@@ -275,10 +276,10 @@ TEST_CASE("a study that the user ends has the order that it had") {
   long calls = 0;
   const Json all = results_json(
       accurate(with_study(scenes::paper(7, 3), studies::frf(), observables::FrequencyRange{17, 28}), 1e-6),
-      [&](const results::Progress& now) {
+      controls::reporting([&](const control::Progress& now) {
         CHECK(now.order == 3);
         return ++calls < 40;
-      });
+      }));
   const Json& branch = all["branches"][0];
   CHECK(branch["stop"]["reason"] == observables::reasons::user.code);
   CHECK(branch["accuracy"]["orders"].size() == 1);
@@ -288,11 +289,12 @@ TEST_CASE("a study that the user ends has the order that it had") {
 TEST_CASE("a study that the user ends in a higher order has the whole results of the order before") {
   const scene::Scene s =
       accurate(with_study(scenes::paper(7, 3), studies::frf(), observables::FrequencyRange{17, 28}), 1e-6);
-  for (const int after : {0, 10, 60}) {  // calls of the second order
+  for (const int after : {0, 10, 20}) {  // reports of the second order
     CAPTURE(after);
     int calls = 0;
-    const Json branch = results_json(
-        s, [&](const results::Progress& now) { return now.order == 3 || ++calls <= after; })["branches"][0];
+    const Json branch = results_json(s, controls::reporting([&](const control::Progress& now) {
+                                       return now.order == 3 || ++calls <= after;
+                                     }))["branches"][0];
     CHECK(calls == after + 1);
     CHECK(branch["status"] == "complete");
     CHECK(branch["accuracy"]["orders"] == Json{3});

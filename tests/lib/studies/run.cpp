@@ -1,5 +1,6 @@
 // Running the studies of a scene: what a sink is given, and when.
 #include "catch.hpp"
+#include "controls.hpp"
 #include "lib/hbm/scenes.hpp"
 
 #include <arcslip/analyses/curves/curves.hpp>
@@ -60,13 +61,11 @@ TEST_CASE("a sink has each result as soon as it is computed") {
   s.studies = {frf("a", {{"damper.normal_load", {1, 2, 3}}})};
   Recorder recorder;
   std::vector<std::size_t> ended(3, 99);  // when a combination began
-  studies::run(s,
-               {.progress =
-                    [&](const results::Progress& now) {
-                      std::size_t& then = ended.at(static_cast<std::size_t>(now.branch));
-                      if (then == 99) then = recorder.ended;
-                      return true;
-                    }},
+  studies::run(s, {.control = controls::reporting([&](const control::Progress& now) {
+                     std::size_t& then = ended.at(static_cast<std::size_t>(now.branch));
+                     if (then == 99) then = recorder.ended;
+                     return true;
+                   })},
                recorder);
   CHECK(ended == std::vector<std::size_t>{0, 1, 2});
   CHECK(recorder.of_schema == std::vector<std::size_t>{0, 0, 0});
@@ -142,8 +141,8 @@ TEST_CASE("without points a study has events and facts, and no rows of points") 
 TEST_CASE("after a stop by the callback no further combination and no further study is begun") {
   scene::Scene s = scenes::paper(1);
   s.studies = {frf("a", {{"damper.normal_load", {1, 2, 3}}}), frf("b", {})};
-  const results::Results all =
-      studies::run(s, {.progress = [](const results::Progress& now) { return now.branch < 1; }});
+  const results::Results all = studies::run(
+      s, {.control = controls::reporting([](const control::Progress& now) { return now.branch < 1; })});
   REQUIRE(all.results.size() == 2);
   CHECK(all.results[0].end.status == results::Status::complete);
   CHECK(all.results[1].end.status == results::Status::stopped);
@@ -156,24 +155,36 @@ TEST_CASE("whenever a study is stopped, its last result says so") {
                 &studies::frf(),
                 scene::Settings::of(observables::FrequencyRange{19.9, 20.1}),
                 {{"damper.normal_load", loads}}}};
-  long of_first = 0;
-  studies::run(s, {.progress = [&](const results::Progress& now) {
-                 of_first += now.branch == 0 ? 1 : 0;
-                 return true;
-               }});
-  REQUIRE(of_first > 100);
-  for (const int threads : {1, 3})
-    for (long last = 1; last < 2 * of_first; last += last < of_first - 3 || last > of_first + 3 ? 7 : 1) {
+  // Stopped by its reports, and, in one thread, at each question.
+  for (const auto& [threads, by_poll] : {std::pair(1, false), {1, true}, {3, false}}) {
+    long of_first = 0;
+    bool first = true;
+    const auto count = [&](const control::Progress& now) {
+      first = now.branch == 0;
+      of_first += first && !by_poll;
+      return true;
+    };
+    const auto count_question = [&] {
+      of_first += first && by_poll;
+      return true;
+    };
+    studies::run(s, {.control = controls::reporting(count, controls::polled(count_question))});
+    REQUIRE(of_first > 100);
+    for (long last = by_poll ? 2 : 1;  // at the first question no study is begun
+         last < 2 * of_first; last += last < of_first - 3 || last > of_first + 3 ? 7 : 1) {
       CAPTURE(threads, last, of_first);
       long calls = 0;
       studies::RunOptions options;
       options.threads = threads;
-      options.progress = [&](const results::Progress&) { return ++calls < last; };
+      const auto go = [&] { return ++calls < last; };
+      options.control = by_poll ? controls::polled(go)
+                                : controls::reporting([&](const control::Progress&) { return go(); });
       const results::Results all = studies::run(s, options);
       REQUIRE(!all.results.empty());
       CHECK(all.results.size() < loads.size());
       CHECK(all.results.back().end.status == results::Status::stopped);
     }
+  }
 }
 
 TEST_CASE(

@@ -1,5 +1,6 @@
 // Combinations of for_each in several threads: results, their order, and what ends them.
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/hbm/scenes.hpp"
 
@@ -8,7 +9,6 @@
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
 #include <arcslip/analyses/responses/parameter_response.hpp>
 #include <arcslip/analyses/responses/responses_at.hpp>
-#include <arcslip/control/ordered_parallel_for.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/results/reasons.hpp>
 #include <arcslip/studies/catalogue.hpp>
@@ -26,15 +26,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Longer for some k than for others, so that results are ready out of order.
-void take_time(std::size_t k) {
-  std::this_thread::sleep_for(std::chrono::microseconds(k % 3 == 0 ? 2000 : 100 * (k % 5)));
-}
-
-Json results_json_in_threads(const scene::Scene& s, int threads,
-                             const results::ProgressCallback& progress = {}) {
+Json results_json_in_threads(const scene::Scene& s, int threads, const control::Control& control = {}) {
   std::ostringstream text;
-  results::write_json(text, studies::run(s, {.progress = progress, .threads = threads}));
+  results::write_json(text, studies::run(s, {.control = control, .threads = threads}));
   return Json::parse(text.str());
 }
 
@@ -53,98 +47,6 @@ scene::Study over_loads(const scene::StudyType& type, S settings) {
 }
 
 }  // namespace
-
-TEST_CASE("results of several threads are taken in order, in the calling thread, by few of them at a time") {
-  for (const int threads : {0, 1, 2, 3, 8, 100}) {
-    CAPTURE(threads);
-    std::atomic<bool> goes_on = true;
-    std::atomic<int> running = 0, most = 0;
-    std::atomic<std::size_t> taken = 0, farthest = 0;
-    const auto caller = std::this_thread::get_id();
-    bool in_order = true, in_caller = true;
-    studies::in_order(
-        60, threads, goes_on,
-        [&](std::size_t k) {
-          most = std::max(most.load(), ++running);
-          farthest = std::max(farthest.load(), k - std::min(k, taken.load()));
-          take_time(k);
-          --running;
-          return k;
-        },
-        [&](std::size_t k) {
-          in_order = in_order && k == taken;
-          in_caller = in_caller && std::this_thread::get_id() == caller;
-          ++taken;
-        });
-    CHECK(taken == 60);
-    CHECK(in_order);
-    CHECK(in_caller);
-    CHECK(most <= std::max(threads, 1));
-    CHECK(farthest <= 2 * static_cast<std::size_t>(std::max(threads, 1)));
-    CHECK(goes_on);
-  }
-}
-
-TEST_CASE("an exception of one computation comes after the results before it, and ends the others") {
-  for (const int threads : {1, 2, 8}) {
-    CAPTURE(threads);
-    std::atomic<bool> goes_on = true;
-    std::vector<std::size_t> taken;
-    const auto all = [&] {
-      studies::in_order(
-          1000, threads, goes_on,
-          [&](std::size_t k) {
-            take_time(k);
-            if (k == 7) throw std::runtime_error("seven");
-            return k;
-          },
-          [&](std::size_t k) { taken.push_back(k); });
-    };
-    CHECK_THROWS_WITH(all(), "seven");
-    CHECK(taken == std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6});
-  }
-}
-
-TEST_CASE("an exception where a result is taken ends the computations") {
-  std::atomic<bool> goes_on = true;
-  std::atomic<int> begun = 0;
-  const auto all = [&] {
-    studies::in_order(
-        1000, 4, goes_on,
-        [&](std::size_t k) {
-          ++begun;
-          take_time(k);
-          return k;
-        },
-        [](std::size_t k) {
-          if (k == 3) throw std::runtime_error("the disk is full");
-        });
-  };
-  CHECK_THROWS_WITH(all(), "the disk is full");
-  CHECK_FALSE(goes_on);
-  CHECK(begun <= 4 + 8 + 1);
-}
-
-TEST_CASE("after a stop what is begun is taken, and no more is begun") {
-  for (const int threads : {1, 2, 8}) {
-    CAPTURE(threads);
-    std::atomic<bool> goes_on = true;
-    std::atomic<std::size_t> begun = 0;
-    std::size_t taken = 0;
-    studies::in_order(
-        1000, threads, goes_on,
-        [&](std::size_t k) {
-          ++begun;
-          take_time(k);
-          if (k == 20) goes_on = false;
-          return k;
-        },
-        [&](std::size_t k) { CHECK(k == taken++); });
-    CHECK(taken == begun);
-    CHECK(taken >= 21);
-    CHECK(taken <= 21 + 2 * static_cast<std::size_t>(threads));
-  }
-}
 
 TEST_CASE("studies of every kind have the same results in one thread and in several") {
   scene::Scene s = scenes::paper(5);
@@ -176,21 +78,22 @@ TEST_CASE(
   long calls = 0;
   int last = 0;
   bool alone = true, forward = true;
-  const Json all = results_json_in_threads(s, 4, [&](const results::Progress& now) {
-    alone = alone && ++inside == 1;
-    forward = forward && now.branch >= last && now.branches == 8;
-    last = now.branch;
-    ++calls;
-    --inside;
-    return true;
-  });
+  const Json all = results_json_in_threads(s, 4, controls::reporting([&](const control::Progress& now) {
+                                             alone = alone && ++inside == 1;
+                                             forward = forward && now.branch >= last && now.branches == 8;
+                                             last = now.branch;
+                                             ++calls;
+                                             --inside;
+                                             return true;
+                                           }));
   CHECK(alone);
   CHECK(forward);
   CHECK(calls > 8 * 50);
   CHECK(all["branches"].size() == 8);
 
   calls = 0;
-  const Json stopped = results_json_in_threads(s, 4, [&](const results::Progress&) { return ++calls < 100; });
+  const Json stopped = results_json_in_threads(
+      s, 4, controls::reporting([&](const control::Progress&) { return ++calls < 100; }));
   CHECK(stopped["branches"].size() <= 5);
   CHECK(stopped["branches"].back()["stop"]["reason"] == observables::reasons::user.code);
   CHECK(calls <= 100 + 3);

@@ -2,6 +2,7 @@
 // whole response with as many harmonics.
 
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/hbm/scenes.hpp"
 
@@ -306,7 +307,7 @@ TEST_CASE("a response over a parameter of which parts have more harmonics is tha
   CHECK_FALSE(observables::refined_response(finer, by_shooting, coarse, row.accuracy));
   long asked = 0;
   CHECK_FALSE(observables::refined_response(finer, range, coarse, row.accuracy,
-                                            [&](const results::Progress&) { return ++asked < 3; }));
+                                            controls::polled([&] { return ++asked < 3; })));
   CHECK(asked == 3);
 }
 
@@ -354,7 +355,7 @@ TEST_CASE("parts are not refined where all has to be traced anew") {
   SECTION("the user ends it") {
     long asked = 0;
     CHECK_FALSE(observables::refined_response(finer, range, coarse, 1e-5,
-                                              [&](const results::Progress&) { return ++asked < 10; }));
+                                              controls::polled([&] { return ++asked < 10; })));
     CHECK(asked == 10);
   }
 }

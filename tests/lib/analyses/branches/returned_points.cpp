@@ -39,11 +39,16 @@ std::vector<ResponseBranch> traced(const scene::Scene& s, bool* cut, double* sec
   long steps = 0;
   const std::clock_t began = std::clock();
   const auto taken = [&] { return static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC; };
+  const auto of_work = controls::polled([&] {
+    *cut = *cut || ++steps > most_steps || taken() > most_seconds;
+    return !*cut;
+  });
+  const auto of_points = [&](const control::Progress& now) {
+    *cut = *cut || now.points > most_points;
+    return !*cut;
+  };
   auto branches =
-      observables::frequency_response(s, scenes::window(s), [&](const observables::Progress& now) {
-        *cut = *cut || ++steps > most_steps || now.points > most_points || taken() > most_seconds;
-        return !*cut;
-      });
+      observables::frequency_response(s, scenes::window(s), controls::reporting(of_points, of_work));
   *seconds = taken();
   return branches;
 }
@@ -287,8 +292,9 @@ std::string differ_in_bits(const scene::Scene& one, const scene::Scene& other, d
 
 double change_of_first(const scene::Scene& one, const scene::Scene& other, double length) {
   const auto first = [](const scene::Scene& s) {
-    return observables::frequency_response(s, scenes::window(s),
-                                           [](const observables::Progress& now) { return now.points < 1; });
+    return observables::frequency_response(
+        s, scenes::window(s),
+        controls::reporting([](const control::Progress& now) { return now.points < 1; }));
   };
   const auto a = first(one), b = first(other);
   if (a.front().points.empty() != b.front().points.empty()) return std::numeric_limits<double>::infinity();

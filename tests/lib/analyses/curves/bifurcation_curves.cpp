@@ -1,6 +1,7 @@
 // Curves of bifurcations in two parameters, compared with shooting in this test, closed forms and
 // invariances.
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
@@ -528,8 +529,8 @@ TEST_CASE("curves of bifurcations leave the window of frequencies, and stop for 
   CHECK(found[0].stop.message.find("the period doubling leaves the window at 1") == 0);
   for (const auto& point : found[0].points) CHECK((point.omega > 1 - 1e-9 && point.omega < 1.3 + 1e-9));
   int calls = 0;
-  const auto stopped = observables::bifurcation_curves(
-      double_well(20), range, [&](const observables::Progress&) { return ++calls < 400; });
+  const auto stopped = observables::bifurcation_curves(double_well(20), range,
+                                                       controls::polled([&] { return ++calls < 400; }));
   REQUIRE_FALSE(stopped.empty());
   CHECK(stopped.back().status == observables::Status::stopped);
   CHECK(stopped.back().stop.reason == observables::reasons::user);

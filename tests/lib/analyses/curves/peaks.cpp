@@ -1,6 +1,7 @@
 // Curves of resonance peaks over a parameter.
 
 #include "catch.hpp"
+#include "controls.hpp"
 #include "size.hpp"
 
 #include "lib/analyses/curves/curves.hpp"
@@ -346,12 +347,12 @@ TEST_CASE("peaks below a share of the highest one next to them start no curve, a
 }
 
 TEST_CASE("a study of peaks ends with the callback, and no other curve is begun") {
-  const auto compute = [](const studies::Case& at, const observables::ProgressCallback& tell) {
-    return observables::resonance_peaks(at.scene, over_load(0.1, 10), tell);
+  const auto compute = [](const studies::Case& at, const control::Control& of_case) {
+    return observables::resonance_peaks(at.scene, over_load(0.1, 10), of_case);
   };
   const auto branches = studies::for_each<ResponseBranch>(
       scenes::paper(1), scene::Combinations({{"c.value", {0.1, 0.2}}}), compute,
-      [](const observables::Progress& progress) { return progress.points < 5; });
+      controls::reporting([](const control::Progress& progress) { return progress.points < 5; }));
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::stopped);
   CHECK(branches[0].stop.reason == observables::reasons::user);

@@ -1,5 +1,6 @@
 // Sweeps of the frequency next to closed forms and next to the folds of harmonic balance.
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
@@ -244,15 +245,16 @@ TEST_CASE("a step that is too large ends a motion before its fold, which is said
 TEST_CASE("a sweep that is stopped keeps its points, and one that cannot be integrated says why") {
   SweepSettings settings{.from = 18, .to = 22, .points = 21};
   const auto paper = scenes::paper(5);
-  const auto stopped = frequency_sweep(paper, settings, [](const observables::Progress& progress) {
-    CHECK(progress.share_done <= 1);
-    return progress.points < 7;
-  });
+  const auto stopped =
+      frequency_sweep(paper, settings, controls::reporting([](const control::Progress& progress) {
+                        CHECK(progress.share_done <= 1);
+                        return progress.points < 7;
+                      }));
   REQUIRE(stopped.size() == 1);
   CHECK(stopped[0].status == Status::stopped);
   CHECK(stopped[0].stop.reason == observables::reasons::user);
   CHECK(stopped[0].points.size() == 7);
-  const auto none = frequency_sweep(paper, settings, [](const observables::Progress&) { return false; });
+  const auto none = frequency_sweep(paper, settings, controls::stopped());
   CHECK(none.at(0).points.empty());
 
   scene::Scene runaway = paper;

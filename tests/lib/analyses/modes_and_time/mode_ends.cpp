@@ -80,14 +80,12 @@ TEST_CASE("where there is no mode to follow a branch says why") {
 
 TEST_CASE("a mode may be stopped, and takes only amplitudes in order and a number from 1 on") {
   const scene::Scene s = oscillator(cubic, 5);
-  long calls = 0;
   const auto stopped = observables::nonlinear_modes(
-      s, {1, 1e-3, 1}, [&](const results::Progress& now) { return ++calls > 0 && now.points < 5; });
+      s, {1, 1e-3, 1}, controls::reporting([](const control::Progress& now) { return now.points < 5; }));
   CHECK(stopped.front().status == observables::Status::stopped);
   CHECK(stopped.front().stop.reason == observables::reasons::user);
   CHECK(stopped.front().points.size() == 5);
-  const auto at_once =
-      observables::nonlinear_modes(s, {1, 1e-3, 1}, [](const results::Progress&) { return false; });
+  const auto at_once = observables::nonlinear_modes(s, {1, 1e-3, 1}, controls::stopped());
   CHECK(at_once.front().stop.reason == observables::reasons::user);
   CHECK(at_once.front().points.empty());
   for (const auto& bad : {observables::ModeRange{0, 1e-3, 1}, {1, 0, 1}, {1, 1, 1}, {1, 2, 1}})

@@ -1,5 +1,6 @@
 #include "catalogue.hpp"
 #include "catch.hpp"
+#include "controls.hpp"
 #include "environment.hpp"
 #include "lib/analyses/responses/reference.hpp"
 
@@ -160,24 +161,24 @@ TEST_CASE("a study in time has a motion for each combination, and a stop keeps w
   TimeSettings settings = at(20, TimeMethod::newmark, 50);
   const scene::ValueLists lists = {{"damper.normal_load", {1, 2, 3}}, {"c.value", {1, 2}}};
   const scene::Scene scene = example("al_sayed_2011");
-  const auto motions = [&](const observables::ProgressCallback& progress) {
-    const auto compute = [&](const studies::Case& each, const observables::ProgressCallback& tell) {
-      return std::vector{motion_in_time(each.scene, settings, tell)};
+  const auto motions = [&](const control::Control& control) {
+    const auto compute = [&](const studies::Case& each, const control::Control& of_case) {
+      return std::vector{motion_in_time(each.scene, settings, of_case)};
     };
-    return studies::for_each<Motion>(scene, lists, compute, progress);
+    return studies::for_each<Motion>(scene, lists, compute, control);
   };
   const auto all = motions({});
   REQUIRE(all.size() == 6);
   CHECK(all[3].set == std::vector<std::pair<std::string, double>>{{"damper.normal_load", 2}, {"c.value", 2}});
   CHECK(all[3].parameters.front().first == "m.value");
   long reported = 0;
-  const auto some = motions([&](const observables::Progress& progress) {
+  const auto some = motions(controls::reporting([&](const control::Progress& progress) {
     CHECK(std::string(progress.item) == "motion");
     CHECK(progress.branches == 6);
     CHECK(progress.share_done <= 1);
     ++reported;
     return progress.branch < 1 || progress.points < 5;
-  });
+  }));
   REQUIRE(some.size() == 2);
   CHECK(some[0].status == Status::complete);
   CHECK(some[1].status == Status::stopped);
@@ -186,7 +187,7 @@ TEST_CASE("a study in time has a motion for each combination, and a stop keeps w
   CHECK(reported > 6);
   for (const auto method : {TimeMethod::shooting, TimeMethod::newmark_shooting, TimeMethod::event_driven}) {
     settings.method = method;
-    const auto none = motions([](const observables::Progress&) { return false; });
+    const auto none = motions(controls::stopped());
     REQUIRE(none.size() == 1);
     CHECK(none[0].stop.reason == observables::reasons::user);
   }

@@ -4,6 +4,7 @@
 // The motion disturbed is the exact one next to the response: by shooting from the motion of 61 harmonics,
 // since next to a fold shooting from that of 15 may lead to the motion on its other side.
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
@@ -216,7 +217,7 @@ TEST_CASE("a start where there is no response is refused, and a stop is reported
   CHECK(none.status == Status::failed);
   CHECK(none.stop.reason == observables::reasons::start_failed);
   settings.frequency = 20;
-  const Motion stopped = motion_in_time(s, settings, [](const observables::Progress&) { return false; });
+  const Motion stopped = motion_in_time(s, settings, controls::stopped());
   CHECK(stopped.status == Status::stopped);
   CHECK(stopped.stop.reason == observables::reasons::user);
 }

@@ -1,6 +1,7 @@
 // Branches over a parameter at a fixed frequency.
 
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/analyses/curves/curves.hpp"
 #include "lib/analyses/responses/reference.hpp"
@@ -138,18 +139,19 @@ TEST_CASE("a parameter that is not there, or may not take the value, is refused 
 }
 
 TEST_CASE("a branch over a parameter ends with the callback, and no other is begun") {
-  const auto compute = [](const studies::Case& at, const observables::ProgressCallback& tell) {
-    return observables::parameter_response(at.scene, parameter_range("damper.normal_load", 20, 1, 3), tell);
+  const auto compute = [](const studies::Case& at, const control::Control& of_case) {
+    return observables::parameter_response(at.scene, parameter_range("damper.normal_load", 20, 1, 3),
+                                           of_case);
   };
   double share = 0;
   const auto branches =
       studies::for_each<ResponseBranch>(scenes::paper(1), scene::Combinations({{"c.value", {0.1, 0.2}}}),
-                                        compute, [&](const observables::Progress& progress) {
+                                        compute, controls::reporting([&](const control::Progress& progress) {
                                           CHECK(progress.share_done >= share);
                                           CHECK(progress.branches == 2);
                                           share = progress.share_done;
                                           return progress.points < 5;
-                                        });
+                                        }));
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].status == observables::Status::stopped);
   CHECK(branches[0].stop.reason == observables::reasons::user);
@@ -161,16 +163,22 @@ TEST_CASE("a branch over a parameter asks in every phase, and is stopped in each
   s.elements.push_back({"h", &elements::cubic_spring(), {{{0, 1.0}}}, {1e9}});
   const auto range = parameter_range("damper.normal_load", 20, 1, 100);
   long asked = 0, before_points = 0;
-  observables::parameter_response(s, range, [&](const observables::Progress& now) {
+  bool has_points = false;
+  const auto count = controls::polled([&] {
     ++asked;
-    if (now.points == 0) ++before_points;
+    if (!has_points) ++before_points;
     return true;
   });
+  const auto see = [&](const control::Progress& now) {
+    has_points = now.points > 0;
+    return true;
+  };
+  observables::parameter_response(s, range, controls::reporting(see, count));
   CHECK(before_points > 100);  // the first response, and the branch over the frequency to the others
   for (const long last : {1L, 10L, before_points / 2, before_points, (before_points + asked) / 2}) {
     long here = 0;
-    const auto branches = observables::parameter_response(
-        s, range, [&](const observables::Progress&) { return ++here < last; });
+    const auto branches =
+        observables::parameter_response(s, range, controls::polled([&] { return ++here < last; }));
     CAPTURE(last);
     CHECK(here == last);  // never asked again
     REQUIRE(branches.size() == 1);

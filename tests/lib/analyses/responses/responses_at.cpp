@@ -1,5 +1,6 @@
 // Responses at one frequency.
 #include "catch.hpp"
+#include "controls.hpp"
 #include "random.hpp"
 
 #include "lib/analyses/responses/responses_at.hpp"
@@ -163,8 +164,7 @@ TEST_CASE("no response, and why: it is unbounded, or nobody wanted it") {
   CHECK(none[0].status == Status::failed);
   CHECK(none[0].stop.reason == observables::reasons::unbounded);
   CHECK(none[0].stop.message.find("no response is bounded at ") == 0);
-  const auto stopped =
-      observables::point_responses(scenes::paper(5, 3), {20}, [](const auto&) { return false; });
+  const auto stopped = observables::point_responses(scenes::paper(5, 3), {20}, controls::stopped());
   REQUIRE(stopped.size() == 1);
   CHECK(stopped[0].status == Status::stopped);
   CHECK(stopped[0].stop.reason == observables::reasons::user);

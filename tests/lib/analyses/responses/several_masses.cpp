@@ -1,4 +1,5 @@
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
@@ -77,14 +78,14 @@ TEST_CASE("two combinations of two lists are four branches, the last list fastes
 TEST_CASE("the progress callback sees every point and stops the study") {
   const scene::Scene s = scenes::paper(1);
   double last = 0;
-  const auto branches = scenes::frequency_responses(s, {{"damper.normal_load", {1, 2, 3}}},
-                                                    [&](const observables::Progress& progress) {
-                                                      if (progress.branch == 0) {
-                                                        CHECK(progress.share_done >= last);
-                                                        last = progress.share_done;
-                                                      }
-                                                      return progress.branch == 0 || progress.points < 10;
-                                                    });
+  const auto branches = scenes::frequency_responses(
+      s, {{"damper.normal_load", {1, 2, 3}}}, controls::reporting([&](const control::Progress& progress) {
+        if (progress.branch == 0) {
+          CHECK(progress.share_done >= last);
+          last = progress.share_done;
+        }
+        return progress.branch == 0 || progress.points < 10;
+      }));
   REQUIRE(branches.size() == 2);
   CHECK(last == 1);
   CHECK(branches[1].status == observables::Status::stopped);

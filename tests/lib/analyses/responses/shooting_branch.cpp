@@ -1,6 +1,7 @@
 // Branches of exact periodic motions over the frequency and over other parameters, against closed forms,
 // tests/reference/exact_1dof.json and the numbers of NLvib's example 03.
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
@@ -43,9 +44,9 @@ ResponseBranch complete(const scene::Scene& s, double from, double to) {
 
 /// Over a parameter at one frequency.
 ResponseBranch shot_over(const scene::Scene& s, const std::string& over, double from, double to,
-                         double frequency, const observables::ProgressCallback& progress = {}) {
+                         double frequency, const control::Control& control = {}) {
   auto branches = observables::parameter_response(
-      s, {over, from, to, frequency, true, ResponseMethod::shooting}, progress);
+      s, {over, from, to, frequency, true, ResponseMethod::shooting}, control);
   REQUIRE(branches.size() == 1);
   CHECK(branches[0].over == over);
   return branches[0];
@@ -242,7 +243,7 @@ TEST_CASE("a branch by shooting that cannot be says why") {
 TEST_CASE("a branch by shooting is stopped by its caller") {
   const auto branch = observables::frequency_response(
       two_masses_and_stop(stop), range(0.57, 0.77, ResponseMethod::shooting),
-      [](const observables::Progress& progress) { return progress.points < 5; });
+      controls::reporting([](const control::Progress& progress) { return progress.points < 5; }));
   REQUIRE(branch.size() == 1);
   CHECK(branch[0].status == Status::stopped);
   CHECK(branch[0].stop.reason.code == "user");
@@ -422,8 +423,9 @@ TEST_CASE("over a parameter, a branch by shooting that cannot be, or is stopped,
   CHECK(failed.status == Status::failed);
   CHECK(failed.stop.reason.code == "not_piecewise_linear");
   CHECK_THROWS_AS(shot_over(two_masses_and_stop(stop), "force.cosin", 0.1, 0.2, 0.6), scene::ParameterError);
-  const auto stopped = shot_over(two_masses_and_stop(stop), "force.cosine", 0.1, 0.2, 0.6,
-                                 [](const observables::Progress& progress) { return progress.points < 5; });
+  const auto stopped =
+      shot_over(two_masses_and_stop(stop), "force.cosine", 0.1, 0.2, 0.6,
+                controls::reporting([](const control::Progress& progress) { return progress.points < 5; }));
   CHECK(stopped.status == Status::stopped);
   CHECK(stopped.stop.reason.code == "user");
   CHECK(stopped.points.size() == 5);

@@ -1,6 +1,7 @@
 // MATLAB files, written by matio: next to the same matrix in Matrix Market format, damaged, and mutated.
 #include "catch.hpp"
 #include "contains.hpp"
+#include "controls.hpp"
 
 #include "lib/scene/files/mat_mutants.hpp"
 #include "lib/scene/folder.hpp"
@@ -303,8 +304,8 @@ TEST_CASE("reading a MATLAB file can be stopped") {
   const Folder folder;
   MatFile(folder / "A.mat", Kind::v5).sparse("K", 4, ir, jc, values);
   CHECK_THROWS_AS(
-      scene::read_mat_file(folder / "A.mat", text_of(folder / "A.mat"), "", "\"A.mat\"", [] { return true; }),
-      scene::Interrupted);
+      scene::read_mat_file(folder / "A.mat", text_of(folder / "A.mat"), "", "\"A.mat\"", controls::stopped()),
+      control::Interrupted);
 }
 
 TEST_CASE("several threads read MATLAB files at the same time") {

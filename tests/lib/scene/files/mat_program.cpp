@@ -1,6 +1,7 @@
 // The program that reads MATLAB files, as the library sees it: missing, hanging, dying, and sending nonsense.
 #include "catch.hpp"
 #include "contains.hpp"
+#include "controls.hpp"
 
 #include "lib/scene/files/mat_bytes.hpp"
 #include "lib/scene/files/mat_program.hpp"
@@ -34,8 +35,8 @@ using Clock = std::chrono::steady_clock;
 // A file that the library has nothing against.
 const std::string file_text = mat_bytes::header() + mat_bytes::full("K", 2, 2, {2, 0, 0, 3});
 
-scene::SparseMatrix read(const std::string& variable = "K", const scene::StopRequest& stop = {}) {
-  return scene::read_mat_file("A.mat", file_text, variable, "\"A.mat\"", stop);
+scene::SparseMatrix read(const std::string& variable = "K", const control::Control& control = {}) {
+  return scene::read_mat_file("A.mat", file_text, variable, "\"A.mat\"", control);
 }
 
 std::string fault(const std::string& variable = "K") {
@@ -249,15 +250,15 @@ TEST_CASE("a program that hangs is killed on request, with what it started") {
   const std::string pid = fake.folder() / "pid";
   const auto begin = Clock::now();
   Clock::time_point asked{};
-  const auto stop = [&] {
-    if (!std::filesystem::exists(pid)) return false;
+  const auto keep_going = [&] {
+    if (!std::filesystem::exists(pid)) return true;
     if (asked == Clock::time_point{}) asked = Clock::now();
-    return true;
+    return false;
   };
   std::string reported;
   try {
-    read("K", stop);
-  } catch (const scene::Interrupted& interrupted) {
+    read("K", controls::polled(keep_going));
+  } catch (const control::Interrupted& interrupted) {
     reported = interrupted.what();
   } catch (const scene::MatrixError&) {
     reported = "refused";  // what never ends is refused at the first byte that is too many
@@ -272,10 +273,10 @@ TEST_CASE("a program that hangs is killed on request, with what it started") {
 }
 
 TEST_CASE("a program is killed at its time limit") {
-  scene::detail::ChildOutput output({"/bin/sleep", {"1000"}}, {std::chrono::milliseconds(50)});
+  control::ChildOutput output({"/bin/sleep", {"1000"}}, {std::chrono::milliseconds(50)});
   char c = 0;
   CHECK_FALSE(output.read(&c, 1));
-  CHECK(output.end() == scene::detail::ChildOutput::End::out_of_time);
+  CHECK(output.end() == control::ChildOutput::End::out_of_time);
   CHECK_FALSE(output.ends_well());
 }
 

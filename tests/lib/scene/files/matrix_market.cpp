@@ -1,4 +1,5 @@
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include <arcslip/scene/files/matrix_market.hpp>
 
@@ -119,5 +120,5 @@ TEST_CASE("reading a large matrix can be stopped") {
   std::string text = "%%MatrixMarket matrix coordinate real general\n200000 1 200000\n";
   for (int i = 1; i <= 200000; ++i) text += std::to_string(i) + " 1 1\n";
   CHECK(scene::read_matrix_market(text, "M.mtx").entries() == 200000);
-  CHECK_THROWS_AS(scene::read_matrix_market(text, "M.mtx", [] { return true; }), scene::Interrupted);
+  CHECK_THROWS_AS(scene::read_matrix_market(text, "M.mtx", controls::stopped()), control::Interrupted);
 }

@@ -1,5 +1,6 @@
 // Slip and its end, against closed forms and other integrations.
 #include "catch.hpp"
+#include "controls.hpp"
 
 #include "lib/time/equation/systems.hpp"
 
@@ -276,7 +277,7 @@ TEST_CASE(
   const auto equation = two_masses();
   EventLimits limits;
   int asked = 0;
-  limits.stop = [&] { return ++asked == 3; };
+  limits.control = controls::polled([&] { return ++asked != 3; });
   EventDriven events(equation, limits);
   const auto motion = events.integrate(at_rest(equation), 0, 1e6);
   CHECK(motion.reason == EndReason::stopped);
@@ -292,7 +293,7 @@ TEST_CASE("a map of many degrees of freedom asks whether to go on within a piece
   equation.forces.push_back({Vector::Ones(300), 1, 1.0, 0});
   EventLimits limits;
   int asked = 0;
-  limits.stop = [&] { return ++asked == 3; };
+  limits.control = controls::polled([&] { return ++asked != 3; });
   EventDriven events(equation, limits);
   const auto map = events.map(at_rest(equation), 1);
   CHECK_FALSE(map.done);
@@ -304,7 +305,7 @@ TEST_CASE("an orbit that is stopped before its first piece has no derivatives") 
   EquationOfMotion equation = masses(Vector::Ones(300));
   equation.K.setIdentity();
   EventLimits limits;
-  limits.stop = [] { return true; };
+  limits.control = controls::stopped();
   EventDriven events(equation, limits);
   const EquationRates rates;
   const Orbit orbit = events.orbit(at_rest(equation), &rates);
@@ -319,9 +320,9 @@ TEST_CASE("before each decomposition of many degrees of freedom it is asked whet
   equation.forces.push_back({Vector::Ones(n), 1, 1.0, 0});
   int asked = 0, last = 1;
   EventLimits limits;
-  limits.stop = [&] { return ++asked == last; };
   for (; last <= 4; ++last) {  // of M, of two stiffnesses and of C
     asked = 0;
+    limits.control = controls::polled([&] { return ++asked != last; });
     EventDriven events(equation, limits);
     const auto motion = events.integrate(at_rest(equation), 0, 1);
     CAPTURE(last);
@@ -337,6 +338,7 @@ TEST_CASE("before each decomposition of many degrees of freedom it is asked whet
     CHECK(asked == last);
   }
   asked = 0;
+  limits.control = controls::polled([&] { return ++asked > 0; });
   EventDriven events(equation, limits);
   CHECK(asked == 4);
   CHECK(events.integrate(at_rest(equation), 0, 1).reason == EndReason::reached);

@@ -125,7 +125,7 @@ std::string random_elements(const Structure& s, const Element& element, std::uin
 
 compared_with_exact::Pair balanced(const scene::Scene& scene, double omega) {
   const auto model = std::make_shared<const model::Model>(model::build(scene));
-  const auto first = observables::first_response(model, omega, omega, [] { return true; });
+  const auto first = observables::first_response(model, omega, omega);
   REQUIRE(first.u);
   const Vector p = hbm::parameters_at(*first.problem, omega);
   return {first.problem, p, *first.u, time::equation_of_motion(*model, p)};

@@ -1,8 +1,10 @@
 #pragma once
 // Computations that do not depend on each other, in several threads, with their results in order.
 
+#include <arcslip/control/run_control.hpp>
+
 #include <algorithm>
-#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -14,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace arcslip::studies {
+namespace arcslip::control {
 
 /// How many of the threads each of `count` computations may use.
 inline int threads_for_each(int threads, std::size_t count) {
@@ -23,15 +25,14 @@ inline int threads_for_each(int threads, std::size_t count) {
 
 /// take(make(k)) for k = 0 ... count - 1, in this order and in the calling thread, with make() in up to
 /// `threads` threads: the results are those of one thread. None is begun that far ahead of take() that more
-/// than twice as many results as threads wait for it. No k is begun after goes_on is false. An exception of
-/// make(k) is thrown after the results before k are taken; it and one of take() set goes_on to false and wait
-/// for what is begun.
+/// than twice as many results as threads wait for it. No k is begun after the end of `control`, which the
+/// calling thread asks while it waits. An exception of make(k) is thrown after the results before k are
+/// taken; it and one of take() stop `control`, which has to be one that can end, and wait for what is begun.
 template <class Make, class Take>
-void in_order(std::size_t count, int threads, std::atomic<bool>& goes_on, const Make& make,
-              const Take& take) {
+void in_order(std::size_t count, int threads, const Control& control, const Make& make, const Take& take) {
   using Result = std::invoke_result_t<const Make&, std::size_t>;
   if (threads <= 1 || count <= 1) {
-    for (std::size_t k = 0; k < count && goes_on; ++k) take(make(k));
+    for (std::size_t k = 0; k < count && control.keep_going(); ++k) take(make(k));
     return;
   }
   struct Made {
@@ -46,8 +47,8 @@ void in_order(std::size_t count, int threads, std::atomic<bool>& goes_on, const 
   const auto work = [&] {
     std::unique_lock lock(mutex);
     for (;;) {
-      changed.wait(lock, [&] { return !goes_on || begun == count || begun < taken + ahead; });
-      if (!goes_on || begun == count) return;
+      changed.wait(lock, [&] { return !control.keep_going() || begun == count || begun < taken + ahead; });
+      if (!control.keep_going() || begun == count) return;
       const std::size_t k = begun++;
       lock.unlock();
       Made made;
@@ -61,27 +62,34 @@ void in_order(std::size_t count, int threads, std::atomic<bool>& goes_on, const 
       changed.notify_all();
     }
   };
-  struct Ending {  // of the threads, before what they use is gone
-    std::atomic<bool>& goes_on;
+  struct Crew {  // ends the threads, before what they use is gone
+    const Control& control;
     std::mutex& mutex;
     std::condition_variable& changed;
     std::vector<std::jthread> workers{};
     bool whole = false;
-    ~Ending() {
+    ~Crew() {
       if (!whole) {
         const std::lock_guard lock(mutex);
-        goes_on = false;
+        control.stop();
       }
       changed.notify_all();
     }
-  } ending{goes_on, mutex, changed};
+  } crew{control, mutex, changed};
   const auto workers = std::min(static_cast<std::size_t>(threads), count);
-  for (std::size_t i = 0; i < workers; ++i) ending.workers.emplace_back(work);
+  for (std::size_t i = 0; i < workers; ++i) crew.workers.emplace_back(work);
   for (;;) {
     std::unique_lock lock(mutex);
     // What is begun is taken, also after a stop.
-    changed.wait(lock,
-                 [&] { return waiting.contains(taken) || taken == count || (!goes_on && taken == begun); });
+    bool stopped = false;
+    const auto is_there = [&] {
+      return waiting.contains(taken) || taken == count || (stopped && taken == begun);
+    };
+    while (!changed.wait_for(lock, std::chrono::milliseconds(20), is_there)) {
+      lock.unlock();
+      stopped = !control.keep_going();
+      lock.lock();
+    }
     const auto next = waiting.extract(taken);
     if (next.empty()) break;
     ++taken;
@@ -90,7 +98,7 @@ void in_order(std::size_t count, int threads, std::atomic<bool>& goes_on, const 
     if (next.mapped().failure) std::rethrow_exception(next.mapped().failure);
     take(std::move(*next.mapped().result));
   }
-  ending.whole = true;
+  crew.whole = true;
 }
 
-}  // namespace arcslip::studies
+}  // namespace arcslip::control

@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-namespace arcslip::hbm {
+namespace arcslip::control {
 
 class Workers {
  public:
@@ -23,4 +23,4 @@ class Workers {
   std::unique_ptr<Shared> shared_;
 };
 
-}  // namespace arcslip::hbm
+}  // namespace arcslip::control

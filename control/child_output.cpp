@@ -15,7 +15,7 @@
 
 extern char** environ;
 
-namespace arcslip::scene::detail {
+namespace arcslip::control {
 namespace {
 
 constexpr int pause = 100;              // ms between questions whether to go on
@@ -177,7 +177,7 @@ bool ChildOutput::may_go_on() {
     end_ = End::out_of_time;
   } else if (now - asked_ > std::chrono::milliseconds(pause)) {
     asked_ = now;
-    if (!is_asked(limits_.stop)) return true;
+    if (limits_.control.keep_going()) return true;
     take_status(kill_all());
     end_ = End::stopped;
   }
@@ -202,4 +202,4 @@ int ChildOutput::kill_all() {
   return status;
 }
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::control

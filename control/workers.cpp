@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace arcslip::hbm {
+namespace arcslip::control {
 
 // A thread that wakes up late finds the run closed and takes no part: the caller waits for those inside only.
 struct Workers::Shared {
@@ -81,4 +81,4 @@ void Workers::run(std::size_t count, const std::function<void(std::size_t)>& wor
   if (all.failure) std::rethrow_exception(all.failure);
 }
 
-}  // namespace arcslip::hbm
+}  // namespace arcslip::control

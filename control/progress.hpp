@@ -1,13 +1,11 @@
 #pragma once
 // Progress reports of a computation.
 
-#include <functional>
 #include <limits>
 
-namespace arcslip::results {
+namespace arcslip::control {
 
-/// Progress of one branch, motion or search; reported after every accepted point, and in between while steps
-/// are rejected or a first response is sought, so that it can be stopped there.
+/// Progress of one branch, motion or search; reported at its beginning and after every accepted point.
 struct Progress {
   int branch = 0, branches = 0;                      // index and number
   long points = 0;                                   // accepted so far on this branch
@@ -20,8 +18,4 @@ struct Progress {
   double best = std::numeric_limits<double>::quiet_NaN();  // of a search: the lowest amplitude so far, m
 };
 
-/// Returns false to stop: the computation then ends with reasons::user. Called in the thread of the
-/// computation; an exception it throws is passed on.
-using ProgressCallback = std::function<bool(const Progress&)>;
-
-}  // namespace arcslip::results
+}  // namespace arcslip::control

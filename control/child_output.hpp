@@ -1,7 +1,7 @@
 #pragma once
 // What another program writes on its standard output. Nothing that it does is trusted.
 
-#include <arcslip/control/stop_request.hpp>
+#include <arcslip/control/run_control.hpp>
 
 #include <array>
 #include <chrono>
@@ -12,7 +12,7 @@
 
 #include <sys/types.h>
 
-namespace arcslip::scene::detail {
+namespace arcslip::control {
 
 class ChildOutput {
  public:
@@ -25,7 +25,7 @@ class ChildOutput {
   };
   struct Limits {
     std::chrono::milliseconds time;
-    StopRequest stop{};
+    Control control{};
   };
   /// How it came that the output ends.
   enum class End { not_yet, by_itself, by_signal, out_of_time, stopped };
@@ -71,4 +71,4 @@ class ChildOutput {
   std::size_t first_ = 0, last_ = 0;  // what of the buffer has not been read
 };
 
-}  // namespace arcslip::scene::detail
+}  // namespace arcslip::control
