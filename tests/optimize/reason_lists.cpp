@@ -98,12 +98,12 @@ TEST_CASE("every kind of events has a name of its own, words, a help and results
 }
 
 TEST_CASE("a kind of events is found by the name of its monitor, which may be a user's own") {
-  using namespace observables;
-  CHECK(event_kinds::kind_named("neimark_sacker") == event_kinds::neimark_sacker);
-  CHECK(event_kinds::words_of("neimark_sacker") == "Neimark-Sacker point");
-  CHECK(event_kinds::words_of("lift_off") == "lift_off");
-  CHECK(event_kinds::kind_named("lift_off").mark.shape == results::Shape::none);
-  CHECK(ResponseEvent{event_kinds::fold, false, true, {}}.kind == event_kinds::fold);
+  namespace kinds = observables::event_kinds;
+  CHECK(kinds::kind_named("neimark_sacker") == kinds::neimark_sacker);
+  CHECK(kinds::words_of("neimark_sacker") == "Neimark-Sacker point");
+  CHECK(kinds::words_of("lift_off") == "lift_off");
+  CHECK(kinds::kind_named("lift_off").mark.shape == results::Shape::none);
+  CHECK(observables::ResponseEvent{kinds::fold, false, true, {}}.kind == kinds::fold);
   CHECK(std::string("lift_off") == results::EventKind{.name = "lift_off"});
 }
 
