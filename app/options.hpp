@@ -3,12 +3,12 @@
 
 #include "exit_code.hpp"
 
+#include <arcslip/control/error.hpp>
 #include <arcslip/scene/keys/json_tree.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/study_type.hpp>
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -46,8 +46,8 @@ struct CommandOptions {
 };
 
 /// Invalid arguments. what() names the argument and the remedy.
-class UsageError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+class UsageError : public Error {
+  using Error::Error;
 };
 
 /// Text printed instead of a run: help, the version, the schema of scenes.

@@ -78,10 +78,7 @@ void check_one_table(const CommandOptions& options, const scene::Scene& scene,
 
 /// "1000000000"; with an exponent beyond 15 digits.
 std::string whole(double count) {
-  std::ostringstream text;
-  text.precision(15);
-  text << count;
-  return text.str();
+  return results::to_digits(count, 15);
 }
 
 /// Throws if for_each has more combinations than allowed: rows, or lists, whose lengths multiply.

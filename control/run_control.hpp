@@ -1,13 +1,13 @@
 #pragma once
 // Whether a computation is to go on, and what it reports.
 
+#include <arcslip/control/error.hpp>
 #include <arcslip/control/progress.hpp>
 
 #include <atomic>
 #include <chrono>
 #include <functional>
 #include <memory>
-#include <stdexcept>
 #include <stop_token>
 
 namespace arcslip::control {
@@ -15,8 +15,8 @@ namespace arcslip::control {
 class AbandonedThreads;
 
 /// An operation that was ended by a Control without a result. what() says what was not done.
-class Interrupted : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+class Interrupted : public Error {
+  using Error::Error;
 };
 
 enum class EndReason { none, user, deadline };

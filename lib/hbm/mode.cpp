@@ -1,6 +1,7 @@
 #include <arcslip/hbm/mode.hpp>
 
 #include <arcslip/continuation/linear/finite.hpp>
+#include <arcslip/laws/piece_hash.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -164,7 +165,7 @@ void ModeEvaluator::parameter_derivative(int /*k*/, continuation::Out dR) const 
 }
 
 std::uint64_t ModeEvaluator::piece() const {
-  return (inner_->piece() ^ range_.reversals()) * 1099511628211ull;
+  return elements::hashed(inner_->piece(), range_.reversals());
 }
 
 }  // namespace arcslip::hbm

@@ -1,6 +1,7 @@
 #include <arcslip/hbm/problem.hpp>
 
 #include <arcslip/continuation/linear/finite.hpp>
+#include <arcslip/laws/piece_hash.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -163,8 +164,8 @@ void HbmEvaluator::parameter_derivative(int k, continuation::Out dR) const {
 }
 
 std::uint64_t HbmEvaluator::piece() const {
-  std::uint64_t hash = 1469598103934665603ull;
-  for (const Part& part : parts_) hash = (hash ^ part.element->piece()) * 1099511628211ull;
+  std::uint64_t hash = elements::empty_hash;
+  for (const Part& part : parts_) hash = elements::hashed(hash, part.element->piece());
   return hash;
 }
 

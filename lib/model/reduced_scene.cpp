@@ -8,7 +8,6 @@
 #include <arcslip/scene/shape.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -18,11 +17,6 @@ namespace {
 
 constexpr double rounding = 1e-9;   // a negative entry of the diagonal, relative to its row
 constexpr int largest_whole = 500;  // rows of matrices without a highest frequency
-
-void append(std::string& text, double value) {
-  char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
 
 // A comment, then the entries other than 0; of a symmetric and of a skew-symmetric matrix the lower triangle.
 std::string matrix_market(const Eigen::MatrixXd& A, MatrixForm form, const std::string& comment) {
@@ -35,7 +29,7 @@ std::string matrix_market(const Eigen::MatrixXd& A, MatrixForm form, const std::
       if (A(i, j) == 0) continue;
       ++count;
       lines += std::to_string(i + 1) + ' ' + std::to_string(j + 1) + ' ';
-      append(lines, A(i, j));
+      results::append_shortest(lines, A(i, j));
       lines += '\n';
     }
   const char* name = form == symmetric ? "symmetric" : form == skew ? "skew-symmetric" : "general";
@@ -46,7 +40,7 @@ std::string matrix_market(const Eigen::MatrixXd& A, MatrixForm form, const std::
 std::string vector_market(const Eigen::VectorXd& f) {
   std::string text = "%%MatrixMarket matrix array real general\n" + std::to_string(f.size()) + " 1\n";
   for (const double value : f) {
-    append(text, value);
+    results::append_shortest(text, value);
     text += '\n';
   }
   return text;
@@ -112,9 +106,9 @@ class ReducedFiles {
   ReducedFiles(const Model& model, const scene::Scene& scene) : model_(model) {
     const scene::Matrices& matrices = *scene.matrices;
     comment_ = "reduced from " + std::to_string(model.reduction->rows) + " rows, for frequencies up to ";
-    append(comment_, matrices.highest_frequency);
+    results::append_shortest(comment_, matrices.highest_frequency);
     comment_ += " " + std::string(scene::unit_name(scene.frequency_unit)) + ", error ";
-    append(comment_, model.reduction->error);
+    results::append_shortest(comment_, model.reduction->error);
   }
 
   void add_matrices(const scene::Matrices& from, scene::Matrices& to) {

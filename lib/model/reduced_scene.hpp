@@ -2,10 +2,10 @@
 // The reduced structure of a scene as files: the matrices of structure/reduction.hpp in Matrix Market format,
 // the names of their rows, the loads of shapes, and the scene with these in place of its own.
 
+#include <arcslip/control/error.hpp>
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/scene.hpp>
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,8 +18,8 @@ struct ReducedScene {
 };
 
 /// A structure that has no reduction, or none that files can hold: what() says why.
-class NotReduced : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+class NotReduced : public Error {
+  using Error::Error;
 };
 
 /// folder: of the new scene and its files, to which the paths of other files become relative. Throws

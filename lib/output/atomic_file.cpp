@@ -93,8 +93,8 @@ std::pair<std::string, int> unused_name(const std::string& folder, const TryName
 }  // namespace
 
 WriteError::WriteError(const std::string& path, int error)
-    : std::runtime_error("cannot write " + results::visible(path) + ": " +
-                         std::generic_category().message(error) + " (" + advice(error) + ")"),
+    : Error("cannot write " + results::visible(path) + ": " + std::generic_category().message(error) + " (" +
+            advice(error) + ")"),
       error_(error) {}
 
 struct AtomicFile::Target {

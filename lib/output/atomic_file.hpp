@@ -1,18 +1,18 @@
 #pragma once
 // Files that appear under their name only when complete.
 
+#include <arcslip/control/error.hpp>
 #include <arcslip/control/run_control.hpp>
 
 #include <functional>
 #include <memory>
 #include <ostream>
-#include <stdexcept>
 #include <string>
 
 namespace arcslip::output {
 
 /// A file that cannot be written. what() names the file, the cause and a remedy.
-class WriteError : public std::runtime_error {
+class WriteError : public Error {
  public:
   WriteError(const std::string& path, int error);
   /// The system's error number (errno), such as ENOSPC.

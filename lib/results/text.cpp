@@ -106,6 +106,12 @@ std::string json_quoted(std::string_view text) {
   return out += '"';
 }
 
+std::string to_digits(double value, int digits) {
+  std::array<char, 32> text;
+  const auto end = text.data() + text.size();
+  return {text.data(), std::to_chars(text.data(), end, value, std::chars_format::general, digits).ptr};
+}
+
 std::string with_error(double value, double error, const char* format) {
   std::string shorter = format;
   int most = 0;

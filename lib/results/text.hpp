@@ -21,6 +21,9 @@ inline std::string shortest(double value) {
   return text;
 }
 
+/// Returns the text of a number with so many significant digits at most.
+std::string to_digits(double value, int digits);
+
 /// A number in a format of printf with a precision ("%.8e", "%.8f", "%.8g"), without the digits whose unit is
 /// less than twice its estimated error, but with two of them at least. All of them where the error is not
 /// known (NaN) or 0.

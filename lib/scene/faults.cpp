@@ -4,8 +4,6 @@
 #include <arcslip/scene/scene.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -26,8 +24,7 @@ std::string lines_of(const std::vector<Fault>& faults) {
 
 }  // namespace
 
-SceneError::SceneError(std::vector<Fault> faults)
-    : std::runtime_error(lines_of(faults)), faults_(std::move(faults)) {}
+SceneError::SceneError(std::vector<Fault> faults) : Error(lines_of(faults)), faults_(std::move(faults)) {}
 
 namespace file {
 namespace {
@@ -134,9 +131,7 @@ std::string child(std::string_view pointer, std::size_t index) {
 
 std::string number_text(double value) {
   if (value == 0 && std::signbit(value)) return "-0.0";  // "-0" is read as an integer, which has no sign
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
+  return results::shortest(value);
 }
 
 std::string quoted(std::string_view text) {

@@ -1,6 +1,7 @@
 #pragma once
 // A scene, validated and resolved, as plain data in the user's units.
 
+#include <arcslip/control/error.hpp>
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/field.hpp>
 #include <arcslip/scene/matrices.hpp>
@@ -13,7 +14,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -173,7 +173,7 @@ struct Fault {
 };
 
 /// All faults of a scene. what() lists them, one per line.
-class SceneError : public std::runtime_error {
+class SceneError : public Error {
  public:
   explicit SceneError(std::vector<Fault> faults);
   const std::vector<Fault>& faults() const { return faults_; }
@@ -183,13 +183,13 @@ class SceneError : public std::runtime_error {
 };
 
 /// A file that cannot be opened or read.
-class FileError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+class FileError : public Error {
+  using Error::Error;
 };
 
 /// An unknown parameter, or a value outside its bounds.
-class ParameterError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+class ParameterError : public Error {
+  using Error::Error;
 };
 
 inline constexpr int largest_depth = 64;                                   // of nested JSON

@@ -26,6 +26,7 @@
 // exact for piecewise linear structures else. Source: docs/theory/09-event-driven.md.
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/control/error.hpp>
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/stability/contact_states_along.hpp>
 #include <arcslip/time/equation/equation_of_motion.hpp>
@@ -33,14 +34,13 @@
 
 #include <complex>
 #include <memory>
-#include <stdexcept>
 #include <vector>
 
 namespace arcslip::time {
 
 /// A law with a memory that is neither piecewise linear nor hysteretic (laws/hysteresis.hpp).
-class NoVariation : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+class NoVariation : public Error {
+  using Error::Error;
 };
 
 /// The motion along the directions of one element, and what its contact does (empty: found by its guards).

@@ -32,12 +32,12 @@
 // with fixed-interface modes in place of V; moments: E. J. Grimme, Krylov projection methods for model
 // reduction, PhD thesis, Univ. of Illinois (1997).
 
+#include <arcslip/control/error.hpp>
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/matrices.hpp>
 
 #include <Eigen/Core>
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -61,8 +61,8 @@ struct Reduced {
 };
 
 /// Matrices that cannot be reduced: what() says why, with the row at fault.
-class ReductionError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+class ReductionError : public Error {
+  using Error::Error;
 };
 
 /// What the structure is reduced for, next to the rows that are kept.

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -161,25 +160,24 @@ std::vector<Of<Item>> rows_of(const FrequencySweep& sweep, const std::vector<Ite
 /// Ranges of the frequency with the same kind of motion that is not of the excitation's period: "period 2
 /// from 0.73 to 0.75 rad/s; not settled from 0.6 to 0.61 rad/s"; "" for none.
 std::string other_motions(const scene::Scene& scene, const FrequencySweep& sweep) {
-  std::ostringstream text;
-  text.precision(6);
+  std::string text;
+  const auto frequency = [&](std::size_t i) {
+    return results::to_digits(in_scene_unit(scene, sweep.points[i].omega), 6);
+  };
   const auto& points = sweep.points;
   for (std::size_t i = 0; i < points.size();) {
     std::size_t last = i;
     while (last + 1 < points.size() && points[last + 1].period == points[i].period) ++last;
     if (points[i].period != 1) {
-      if (text.tellp() > 0) text << "; ";
-      if (points[i].settled)
-        text << "period " << points[i].period;
-      else
-        text << "not settled";
-      text << (last > i ? " from " : " at ") << in_scene_unit(scene, points[i].omega);
-      if (last > i) text << " to " << in_scene_unit(scene, points[last].omega);
-      text << ' ' << scene::unit_name(scene.frequency_unit);
+      if (!text.empty()) text += "; ";
+      text += points[i].settled ? "period " + std::to_string(points[i].period) : "not settled";
+      text += (last > i ? " from " : " at ") + frequency(i);
+      if (last > i) text += " to " + frequency(last);
+      text.append(" ").append(scene::unit_name(scene.frequency_unit));
     }
     i = last + 1;
   }
-  return text.str();
+  return text;
 }
 
 Described<FrequencySweep> described_sweep(const scene::Scene& scene, const SweepSettings&,

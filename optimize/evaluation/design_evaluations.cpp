@@ -1,12 +1,12 @@
 #include <arcslip/optimize/evaluation/design_evaluations.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/control/error.hpp>
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/evaluation/interruption.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 namespace arcslip::optimize {
@@ -86,8 +86,7 @@ void DesignEvaluations::move_to(std::span<const double> y) {
   for (std::size_t c = 0; c < cases_.size(); ++c) {
     const PeakState& state = cases_.state(c);
     if (!state.unbounded && state.peaks.empty())
-      throw std::runtime_error(where(c) + "no response was found at " + space_.text(state.design) + ": " +
-                               state.message);
+      throw Error(where(c) + "no response was found at " + space_.text(state.design) + ": " + state.message);
   }
 }
 

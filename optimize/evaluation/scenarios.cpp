@@ -1,12 +1,12 @@
 #include <arcslip/optimize/evaluation/scenarios.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/control/error.hpp>
 #include <arcslip/control/run_control.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <stdexcept>
 
 namespace arcslip::optimize {
 
@@ -148,7 +148,7 @@ Scenarios::Worst Scenarios::worst(std::shared_ptr<const model::Model> model,
   const auto look = [&](const PeakState& state) {
     const double amplitude = state.amplitude();
     if (std::isnan(amplitude))
-      throw std::runtime_error("no response was found at " + box_->text(state.design) + ": " + state.message);
+      throw Error("no response was found at " + box_->text(state.design) + ": " + state.message);
     if (amplitude > worst.amplitude) worst = {state.design, amplitude};
     return amplitude;
   };
@@ -178,7 +178,7 @@ Scenarios::Worst Scenarios::worst(std::shared_ptr<const model::Model> model,
     const MinimizeResult found = minimize(problem, box_->scaled(start), options);
     if (found.reason != MinimizeReason::user && found.reason != MinimizeReason::rounding &&
         !is_converged(found.reason))
-      throw std::runtime_error("the worst case of the uncertain parameters was not found: " + found.message);
+      throw Error("the worst case of the uncertain parameters was not found: " + found.message);
   };
   for (const std::vector<double>& start : known) search(start);
   search(centre());

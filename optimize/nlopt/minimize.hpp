@@ -6,13 +6,13 @@
 //   const auto square = [](auto x, auto g) { if (!g.empty()) g[0] = 2 * x[0]; return x[0] * x[0]; };
 //   auto result = minimize({.objective = square, .lower = {-1}, .upper = {2}}, {1.5});
 
+#include <arcslip/control/error.hpp>
 #include <arcslip/optimize/nlopt/reason.hpp>
 
 #include <functional>
 #include <limits>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -24,8 +24,8 @@ inline constexpr const char* default_algorithm = "LD_SLSQP";
 
 /// Invalid input: inconsistent sizes, reversed or equal bounds, an unknown algorithm, a negative tolerance,
 /// an algorithm that does not support the problem. The message has the values found and allowed.
-class OptionsError : public std::invalid_argument {
-  using std::invalid_argument::invalid_argument;
+class OptionsError : public Error {
+  using Error::Error;
 };
 
 /// Properties of an algorithm. The name starts with L (local) or G (global), then N (derivative-free) or

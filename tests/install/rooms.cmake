@@ -41,7 +41,7 @@ set(analyses/curves ${continuation} control results scene fourier hbm stability 
     analyses/responses analyses/curves)
 set(analyses/modes_and_time ${continuation} control results scene model hbm time/equation time/periodic stability
     observables analyses/branches analyses/responses analyses/modes_and_time)
-set(studies/presentation control results scene laws model observables analyses/curves analyses/modes_and_time
+set(studies/presentation control results scene laws model observables analyses/modes_and_time
     studies/presentation)
 set(studies control results scene scene/keys laws/memoryless laws/hysteresis laws/contact stability observables
     analyses/responses analyses/curves analyses/modes_and_time studies/presentation studies)

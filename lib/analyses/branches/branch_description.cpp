@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace arcslip::observables {
 
@@ -152,18 +151,8 @@ Status status_of(StopReason reason) {
   }
 }
 
-std::string to_digits(double value, int digits) {
-  std::ostringstream s;
-  s.precision(digits);
-  s << value;
-  return s.str();
-}
-
 std::string frequency_text(double omega, scene::FrequencyUnit unit) {
-  std::ostringstream s;
-  s.precision(8);
-  s << omega / scene::to_rad_per_s(unit) << ' ' << scene::unit_name(unit);
-  return s.str();
+  return to_digits(omega / scene::to_rad_per_s(unit), 8) + ' ' + std::string(scene::unit_name(unit));
 }
 
 }  // namespace arcslip::observables

@@ -4,6 +4,7 @@
 #include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/results/response.hpp>
+#include <arcslip/results/text.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <string>
@@ -51,8 +52,7 @@ void add(const continuation::Counts& counts, SolverSummary& to);
 
 Status status_of(continuation::StopReason reason);
 
-/// A number with so many significant digits.
-std::string to_digits(double value, int digits);
+using results::to_digits;
 
 /// omega (rad/s) in the scene's unit, with its name.
 std::string frequency_text(double omega, scene::FrequencyUnit unit);

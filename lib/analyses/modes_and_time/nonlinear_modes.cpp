@@ -16,7 +16,6 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 
 namespace arcslip::observables {
@@ -35,10 +34,7 @@ constexpr const char* mark = "mark";          // the monitor of an amplitude tha
 constexpr int marks = 15;                     // between the ends of the range, in equal ratios
 
 std::string metres(double amplitude) {
-  std::ostringstream s;
-  s.precision(8);
-  s << amplitude << " m";
-  return s.str();
+  return to_digits(amplitude, 8) + " m";
 }
 
 // An extremum of the damping ratio, unknown zeta: of 1 + zeta, next to which rounding counts for nothing.
@@ -276,11 +272,9 @@ class ModeStudy {
     result_.stop.value = last.amplitude;
     result_.stop.limit = range_.to;
     if (traced.stop.value == std::log(range_.to)) {
-      std::ostringstream damping;
-      damping.precision(6);
-      damping << last.damping_ratio;
       result_.stop.message = "reached the end of the range at " + metres(range_.to) + ": " +
-                             frequency_text(last.omega, unit_) + ", damping ratio " + damping.str();
+                             frequency_text(last.omega, unit_) + ", damping ratio " +
+                             to_digits(last.damping_ratio, 6);
       return;
     }
     result_.status = Status::stopped;

@@ -2,6 +2,7 @@
 
 #include <arcslip/fourier/moments.hpp>
 #include <arcslip/laws/hysteresis/friction_phases.hpp>
+#include <arcslip/laws/piece_hash.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -84,10 +85,10 @@ class ExactJenkins final : public Element {
   std::uint64_t piece() const override {
     if (frictionless_ || limit_ == 0) return 0;  // no force, whatever the phases
     if (!sliding_) return h_.odd ? 1 : piece_of_stick();
-    std::uint64_t hash = 1469598103934665603ull;
+    std::uint64_t hash = empty_hash;
     for (const FrictionPhase& phase : *sliding_) {
-      hash = (hash ^ static_cast<std::uint64_t>(2 + phase.sign)) * 1099511628211ull;
-      hash = (hash ^ static_cast<std::uint64_t>(2 + phase.slip_sign)) * 1099511628211ull;
+      hash = hashed(hash, static_cast<std::uint64_t>(2 + phase.sign));
+      hash = hashed(hash, static_cast<std::uint64_t>(2 + phase.slip_sign));
     }
     return hash;
   }

@@ -1,5 +1,6 @@
 #include <arcslip/fourier/samples.hpp>
 #include <arcslip/laws/hysteresis/jenkins.hpp>
+#include <arcslip/laws/piece_hash.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ int first_of(In x, double height, double same) {
 }
 
 std::uint64_t with_sample(std::uint64_t piece, int sample) {
-  return (piece ^ (static_cast<std::uint64_t>(sample) << 2)) * 1099511628211ull;
+  return hashed(piece, static_cast<std::uint64_t>(sample) << 2);
 }
 
 // One march over the span from the sample of largest x, where f = +p, is periodic by construction. The
@@ -156,7 +157,7 @@ class SampledJenkins final : public Element {
       const double x = s.sign * x_[s.sample];
       const double elastic = anchored * x_s + (x - anchor_x);  // f/k_d if it sticks; the top slips
       const bool slips = std::abs(elastic) >= x_s;
-      piece_ = (piece_ ^ (slips ? 1u : 2u)) * 1099511628211ull;
+      piece_ = hashed(piece_, slips ? 1u : 2u);
       if (slips) {
         const double sign = elastic > 0 ? 1 : -1;
         note_slip(top + k, sign, slipping, anchored);

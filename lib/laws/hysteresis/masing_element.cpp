@@ -1,15 +1,11 @@
 #include <arcslip/laws/hysteresis/masing_element.hpp>
 
+#include <arcslip/laws/piece_hash.hpp>
+
 #include <algorithm>
 #include <cmath>
 
 namespace arcslip::elements {
-namespace {
-
-constexpr std::uint64_t prime = 1099511628211ull, basis = 1469598103934665603ull;  // of FNV
-
-}  // namespace
-
 MasingElement::MasingElement(const Harmonics& h)
     : h_(h),
       loops_(h),
@@ -116,14 +112,14 @@ void MasingElement::find_states() {
 
 // How loops are nested and which kinks of the backbone each part has passed; parts without any do not count.
 void MasingElement::find_piece() {
-  piece_ = basis;
+  piece_ = empty_hash;
   if (scales_.slip_force == 0) return;
   for (const BranchPart& part : loops_.parts()) {
     const std::uint64_t passed = level(y_of(0.5 * std::abs(part.end.x - anchor(part).x)));
-    if (passed > 0) piece_ = (piece_ ^ passed) * prime;
+    if (passed > 0) piece_ = hashed(piece_, passed);
   }
   if (!h_.odd && states_.front().slope > 0)
-    piece_ = (piece_ ^ static_cast<std::uint64_t>(loops_.lowest())) * prime;
+    piece_ = hashed(piece_, static_cast<std::uint64_t>(loops_.lowest()));
 }
 
 void MasingElement::slide(In u, bool jacobian) {

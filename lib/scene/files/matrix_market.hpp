@@ -11,11 +11,11 @@
 // "coordinate" or "array" (all values, column by column), "real" or "integer", "general", "symmetric" or
 // "skew-symmetric". Of a symmetric matrix one triangle is given, the lower one in an array.
 
+#include <arcslip/control/error.hpp>
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/sparse_matrix.hpp>
 
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -27,8 +27,8 @@ inline constexpr std::size_t largest_matrix_size = 100'000'000;  // rows or colu
 inline constexpr std::size_t largest_empty_matrix = 10'000'000;
 
 /// A file that does not hold the matrix that it should: what() names file, line and cause.
-class MatrixError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+class MatrixError : public Error {
+  using Error::Error;
 };
 
 /// text: content of the file; file: its name in messages. Throws control::Interrupted, and MatrixError for

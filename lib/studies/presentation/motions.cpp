@@ -9,7 +9,6 @@
 #include <complex>
 #include <memory>
 #include <set>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -90,12 +89,11 @@ results::Object start(const observables::MotionDeparture& departure) {
 std::string motion_remark(const Motion& motion) {
   if (!motion.departure) return {};
   const observables::MotionDeparture& of = *motion.departure;
-  std::ostringstream text;
-  text.precision(6);
-  text << motion.stop.message << "; in a period the disturbance changed by the factor " << of.growth;
+  std::string text = motion.stop.message + "; in a period the disturbance changed by the factor " +
+                     results::to_digits(of.growth, 6);
   if (!std::isnan(of.largest_multiplier))
-    text << ", compared with a largest multiplier of modulus " << of.largest_multiplier;
-  return text.str();
+    text += ", compared with a largest multiplier of modulus " + results::to_digits(of.largest_multiplier, 6);
+  return text;
 }
 
 results::Object motion_facts(const scene::Scene& scene, const Motion& motion) {
@@ -138,11 +136,9 @@ constexpr double neutral =
 // A motion that no structure shows.
 std::string doubt(const Motion& motion) {
   if (motion.multipliers.empty() || !(std::abs(motion.multipliers.front()) > 1 + neutral)) return {};
-  std::ostringstream text;
-  text.precision(4);
-  text << "unstable, with a multiplier of modulus " << std::abs(motion.multipliers.front())
-       << ": the structure leaves it after the least disturbance";
-  return text.str();
+  return "unstable, with a multiplier of modulus " +
+         results::to_digits(std::abs(motion.multipliers.front()), 4) +
+         ": the structure leaves it after the least disturbance";
 }
 
 }  // namespace

@@ -6,13 +6,13 @@
 // q = d . x, with a sum over the directions of each element. Laws may remember: the state is (x, x', z), and
 // the slider of a friction element is where its z is (laws/law.hpp).
 
+#include <arcslip/control/error.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/results/time_reasons.hpp>
 
 #include <Eigen/Core>
 
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -22,8 +22,8 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 /// A degree of freedom without mass: its motion has no state of its own.
-class SingularMass : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+class SingularMass : public Error {
+  using Error::Error;
 };
 
 /// One nonlinear element with its numbers.
@@ -81,10 +81,9 @@ struct MotionState {
 
 /// A model that has no equation of motion: a law whose force at rest is set-valued (Law::set_valued()), or a
 /// loss factor, or one sector of a ring; or none with one response.
-class NotInTime : public std::runtime_error {
+class NotInTime : public Error {
  public:
-  NotInTime(results::Reason reason, const std::string& message)
-      : std::runtime_error(message), reason_(reason) {}
+  NotInTime(results::Reason reason, const std::string& message) : Error(message), reason_(reason) {}
   results::Reason reason() const { return reason_; }
 
  private:

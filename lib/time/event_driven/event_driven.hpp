@@ -20,6 +20,7 @@
 // those of what it follows from there on; the forces are continuous, so that nothing jumps. Source:
 // docs/theory/09-event-driven.md.
 
+#include <arcslip/control/error.hpp>
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/time/equation/parameter_derivatives.hpp>
 #include <arcslip/time/equation/period_map.hpp>
@@ -28,7 +29,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,8 +36,8 @@
 namespace arcslip::time {
 
 /// A structure with a law that is not piecewise linear.
-class NotPiecewiseLinear : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+class NotPiecewiseLinear : public Error {
+  using Error::Error;
 };
 
 struct ContactEvent {

@@ -1,10 +1,10 @@
 #include <arcslip/time/periodic/shooting_problem.hpp>
 
+#include <arcslip/control/error.hpp>
 #include <arcslip/time/periodic/periodicity_conditions.hpp>
 
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <utility>
 
 namespace arcslip::time {
@@ -70,7 +70,7 @@ Evaluated ShootingEvaluator::move_to(In X, In p, Needs needs) {
     }
   }
   orbit_ = integrator_->orbit(unstacked_start(), rates ? &*rates : nullptr);
-  if (!orbit_.map.done) throw std::runtime_error(orbit_.map.message);
+  if (!orbit_.map.done) throw Error(orbit_.map.message);
   defect_of(orbit_.map, X, F_);
   if (!rates) return Evaluated::ok;
   defect_by_start(orbit_.map, std::get<Matrix>(J_));
@@ -110,11 +110,11 @@ const ShootingEvaluator::ByParameter& ShootingEvaluator::by(int k) const {
   if (!rates) {
     std::ostringstream text;
     text << "there is no derivative by \"" << parameter.name << "\" at " << p_of_J_[k];
-    throw std::runtime_error(text.str());
+    throw Error(text.str());
   }
   EventDriven integrator(equation_of_motion(problem_.model(), p), problem_.limits());
   const Orbit orbit = integrator.orbit(unstacked(X_of_J_, problem_.model().dofs), &*rates);
-  if (!orbit.map.done) throw std::runtime_error(orbit.map.message);
+  if (!orbit.map.done) throw Error(orbit.map.message);
   set_by(k, orbit);
   return by_;
 }
