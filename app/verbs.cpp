@@ -194,101 +194,167 @@ void tell_beyond_reduction(const scene::Scene& scene, const std::vector<scene::S
       tell("the study \"" + study.name + "\" has " + doubt);
 }
 
+/// The results of all studies together. Files are written as results arrive; outputs that may block on a
+/// reader, or that have to sort several lists, at the end.
+class CommonResults {
+ public:
+  CommonResults(const CommandOptions& options, const results::Header& header,
+                const std::vector<results::Schema>& schemas)
+      : in_the_end_(some_of(common_files(options, schemas), schemas, false)),
+        open_(some_of(common_files(options, schemas), schemas, true)),
+        all_(in_the_end_.empty() ? std::vector<results::Sink*>{&open_}
+                                 : std::vector<results::Sink*>{&open_, &kept_}) {
+    all_.begin(header, schemas);
+  }
+  CommonResults(const CommonResults&) = delete;
+  CommonResults& operator=(const CommonResults&) = delete;
+
+  results::Sink& sink() { return all_; }
+
+  void finish(Writing& writing, StandardOutput& screen) {
+    all_.finish();
+    open_.commit(writing);
+    for (const File& each : in_the_end_) {
+      const auto writer = [&](std::ostream& out) { write(each, kept_.results, out); };
+      if (each.path == "-")
+        screen.write(writer);
+      else
+        writing.attempt(results::visible(each.path),
+                        [&] { output::write_file(each.path, writer, by_signal()); });
+    }
+  }
+
+ private:
+  static std::vector<File> some_of(std::vector<File> files, std::span<const results::Schema> schemas,
+                                   bool at_once) {
+    std::erase_if(files, [&](const File& file) {
+      return (!may_wait(file.path) && are_of_one_list(schemas)) != at_once;
+    });
+    return files;
+  }
+
+  std::vector<File> in_the_end_;
+  OpenFiles open_;
+  results::Collector kept_;
+  Tee all_;
+};
+
+/// The studies of a scene, one after the other, with their files, tables and remarks.
+class StudiesRun {
+ public:
+  StudiesRun(const scene::Scene& scene, const std::vector<scene::Study>& studies,
+             const CommandOptions& options)
+      : scene_(scene),
+        studies_(studies),
+        options_(options),
+        how_(run_options(options)),
+        files_(study_files(options.out, studies)),
+        held_(prepare_places(options, scene, studies, files_)),
+        header_(studies::header(scene)),
+        schemas_(schemas_of(scene, studies, how_)),
+        common_(options, header_, schemas_) {}
+
+  ExitCode run() {
+    for (std::size_t i = 0; i < studies_.size(); ++i)
+      if (interrupted())
+        tell("the study \"" + studies_[i].name + "\" was not started: its files are unchanged");
+      else
+        run_study(i);
+    finish();
+    if (interrupted()) tell_interruption();
+    return writing_.code(interrupted() ? ExitCode::stopped_early : code_);
+  }
+
+ private:
+  static studies::RunOptions run_options(const CommandOptions& options) {
+    const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    return {.points = !options.out.empty() || !options.json.empty() || !options.csv.empty(),
+            .coefficients = options.coefficients,
+            .figures = !options.out.empty(),
+            .threads = options.threads.value_or(processors)};
+  }
+
+  static std::vector<results::Schema> schemas_of(const scene::Scene& scene,
+                                                 const std::vector<scene::Study>& studies,
+                                                 const studies::RunOptions& how) {
+    std::vector<results::Schema> schemas;
+    for (const scene::Study& study : studies)
+      schemas.push_back(studies::kind_of(*study.type).schema(scene, study, how));
+    return schemas;
+  }
+
+  void run_study(std::size_t i) {
+    any_begun_ = true;
+    if (studies_.size() > 1) tables_ << (i > 0 ? "\n" : "") << studies_[i].name << '\n';
+    results::TableWriter table(tables_);
+    results::Remarks remarks;
+    OpenFiles own(options_.out.empty() ? std::vector<File>() : own_files(files_[i], schemas_[i]));
+    OneOfSeveral among(common_.sink(), i);
+    Tee sinks({&table, &remarks, &own, &among});
+    sinks.begin(header_, std::span(&schemas_[i], 1));
+    const std::vector<results::FigureData> figures =
+        compute_visibly(scene_, studies_[i], how_, options_, sinks, interruption_);
+    sinks.finish();
+    if (how_.figures && !options_.quiet) tell_not_drawn(studies_[i], figures);
+    tell_remarks(remarks);
+    if (!held_) return;
+    for (const std::string& path : write_set(*held_, files_[i], scene_, header_, own, figures, writing_))
+      places_ += results::visible(path) + "\n";
+  }
+
+  void tell_remarks(const results::Remarks& remarks) {
+    if (!remarks.early_ends.empty()) code_ = ExitCode::stopped_early;
+    for (const std::string& sentence : remarks.early_ends) tell(sentence);
+    for (const std::string& sentence : remarks.doubts) tell(sentence);
+    if (options_.quiet) return;
+    for (const std::string& sentence : remarks.others) tell(sentence);
+  }
+
+  /// Writes what all studies share, and the tables for people.
+  void finish() {
+    StandardOutput screen;
+    if (any_begun_) {
+      if (!options_.csv.empty() && options_.csv != "-")
+        for (const std::string& path : older_tables(options_.csv, schemas_))
+          tell(results::visible(path) + " is left from earlier results: these have no such table");
+      common_.finish(writing_, screen);
+    }
+    if (!takes_standard_output(options_)) {
+      if (!places_.empty() && !options_.quiet) tables_ << '\n' << places_;
+      screen.write_lines([&](std::ostream& out) { out << tables_.str(); });
+    }
+    writing_.attempt("standard output", [&] { screen.finish(); });
+  }
+
+  void tell_interruption() {
+    if (!interruption_.is_new()) return;
+    tell(!any_begun_ ? "interrupted before any study was started: nothing was computed or written"
+                     : "interrupted while writing results; " + writing_.missing());
+  }
+
+  const scene::Scene& scene_;
+  const std::vector<scene::Study>& studies_;
+  const CommandOptions& options_;
+  const studies::RunOptions how_;
+  const std::vector<StudyFiles> files_;
+  std::optional<ResultsFolder> held_;
+  const results::Header header_;
+  const std::vector<results::Schema> schemas_;
+  CommonResults common_;
+  Interruption interruption_;
+  Writing writing_;
+  ExitCode code_ = ExitCode::done;
+  bool any_begun_ = false;
+  std::string places_;  // of the files that were written
+  std::ostringstream tables_;
+};
+
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
                      const CommandOptions& options) {
   check_one_table(options, scene, studies);
   check_combinations(options, studies);
   tell_beyond_reduction(scene, studies);
-  const std::vector<StudyFiles> files = study_files(options.out, studies);
-  std::optional<ResultsFolder> held = prepare_places(options, scene, studies, files);
-
-  const bool has_files = !options.out.empty() || !options.json.empty() || !options.csv.empty();
-  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const studies::RunOptions how{
-      has_files, options.coefficients, !options.out.empty(), {}, options.threads.value_or(processors)};
-  const results::Header header = studies::header(scene);
-  std::vector<results::Schema> schemas;
-  for (const scene::Study& study : studies)
-    schemas.push_back(studies::kind_of(*study.type).schema(scene, study, how));
-  // Files are written as results arrive; outputs that may block on a reader, or that have to sort several
-  // lists, are written at the end.
-  std::vector<File> common = common_files(options, schemas);
-  const auto later = std::stable_partition(common.begin(), common.end(), [&](const File& file) {
-    return !may_wait(file.path) && are_of_one_list(schemas);
-  });
-  const std::vector<File> in_the_end(later, common.end());
-  common.erase(later, common.end());
-  OpenFiles open(std::move(common));
-  results::Collector kept;
-  Tee all(in_the_end.empty() ? std::vector<results::Sink*>{&open}
-                             : std::vector<results::Sink*>{&open, &kept});
-  all.begin(header, schemas);
-
-  Interruption interruption;
-  Writing writing;
-  ExitCode code = ExitCode::done;
-  bool any_begun = false;
-  std::string places;
-  std::ostringstream tables;
-  for (std::size_t i = 0; i < studies.size(); ++i) {
-    if (interrupted()) {
-      tell("the study \"" + studies[i].name + "\" was not started: its files are unchanged");
-      continue;
-    }
-    any_begun = true;
-    if (studies.size() > 1) tables << (i > 0 ? "\n" : "") << studies[i].name << '\n';
-    results::TableWriter table(tables);
-    results::Remarks remarks;
-    OpenFiles own(options.out.empty() ? std::vector<File>() : own_files(files[i], schemas[i]));
-    OneOfSeveral among(all, i);
-    Tee sinks({&table, &remarks, &own, &among});
-    sinks.begin(header, std::span(&schemas[i], 1));
-    const std::vector<results::FigureData> figures =
-        compute_visibly(scene, studies[i], how, options, sinks, interruption);
-    sinks.finish();
-    if (how.figures && !options.quiet) tell_not_drawn(studies[i], figures);
-    for (const std::string& sentence : remarks.early_ends) {
-      code = ExitCode::stopped_early;
-      tell(sentence);
-    }
-    for (const std::string& sentence : remarks.doubts) tell(sentence);
-    for (const std::string& sentence : remarks.others)
-      if (!options.quiet) tell(sentence);
-    if (held) {
-      for (const std::string& path : write_set(*held, files[i], scene, header, own, figures, writing))
-        places += results::visible(path) + "\n";
-    }
-  }
-  StandardOutput screen;
-  if (any_begun) {
-    if (!options.csv.empty() && options.csv != "-")
-      for (const std::string& path : older_tables(options.csv, schemas))
-        tell(results::visible(path) + " is left from earlier results: these have no such table");
-    all.finish();
-    open.commit(writing);
-    for (const File& each : in_the_end) {
-      const auto writer = [&](std::ostream& out) { write(each, kept.results, out); };
-      if (each.path == "-") {
-        screen.write(writer);
-      } else {
-        writing.attempt(results::visible(each.path),
-                        [&] { output::write_file(each.path, writer, by_signal()); });
-      }
-    }
-  }
-  if (!takes_standard_output(options)) {
-    if (!places.empty() && !options.quiet) tables << '\n' << places;
-    screen.write_lines([&](std::ostream& out) { out << tables.str(); });
-  }
-  writing.attempt("standard output", [&] { screen.finish(); });
-  if (interrupted()) {
-    code = ExitCode::stopped_early;
-    if (interruption.is_new()) {
-      tell(!any_begun ? "interrupted before any study was started: nothing was computed or written"
-                      : "interrupted while writing results; " + writing.missing());
-    }
-  }
-  return writing.code(code);
+  return StudiesRun(scene, studies, options).run();
 }
 
 ExitCode check(const scene::Scene& scene, const CommandOptions& options) {

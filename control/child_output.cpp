@@ -126,7 +126,7 @@ bool ChildOutput::ends_well() {
 
 // False at the end of the output.
 bool ChildOutput::fill() {
-  while (end_ == End::not_yet && may_go_on()) {
+  while (end_ == End::not_yet && keeps_going()) {
     pollfd place{pipe_, POLLIN, 0};
     if (::poll(&place, 1, pause) <= 0) {
       if (!has_exited()) continue;
@@ -151,7 +151,7 @@ bool ChildOutput::fill() {
 
 // It has closed its output.
 void ChildOutput::wait_for_end() {
-  while (end_ == End::not_yet && may_go_on()) {
+  while (end_ == End::not_yet && keeps_going()) {
     if (has_exited())
       take_status(kill_all());
     else
@@ -170,7 +170,7 @@ bool ChildOutput::has_exited() {
   return true;
 }
 
-bool ChildOutput::may_go_on() {
+bool ChildOutput::keeps_going() {
   const auto now = std::chrono::steady_clock::now();
   if (now - began_ > limits_.time) {
     take_status(kill_all());

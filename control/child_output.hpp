@@ -55,7 +55,7 @@ class ChildOutput {
 
  private:
   bool fill();
-  bool may_go_on();
+  bool keeps_going();
   bool has_exited();
   int kill_all();
   void wait_for_end();

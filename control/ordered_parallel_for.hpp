@@ -23,6 +23,89 @@ inline int threads_for_each(int threads, std::size_t count) {
   return threads <= 1 ? 1 : std::max(1, threads / static_cast<int>(std::clamp<std::size_t>(count, 1, 1024)));
 }
 
+namespace detail {
+
+/// What the threads of in_order() share.
+template <class Result>
+class OrderedLoop {
+ public:
+  struct Made {
+    std::optional<Result> result;
+    std::exception_ptr failure;
+  };
+
+  OrderedLoop(std::size_t count, std::size_t ahead, const Control& control)
+      : count_(count), ahead_(ahead), control_(control) {}
+  OrderedLoop(const OrderedLoop&) = delete;
+  OrderedLoop& operator=(const OrderedLoop&) = delete;
+  /// Ends the threads, before what they use is gone.
+  ~OrderedLoop() {
+    if (!whole) {
+      const std::lock_guard lock(mutex_);
+      control_.stop();
+    }
+    changed_.notify_all();
+  }
+
+  template <class Make>
+  void start(std::size_t workers, const Make& make) {
+    for (std::size_t i = 0; i < workers; ++i) workers_.emplace_back([&] { work(make); });
+  }
+
+  /// Waits for the next result; nothing: there is none. What is begun is taken, also after a stop.
+  std::optional<Made> next() {
+    std::unique_lock lock(mutex_);
+    bool stopped = false;
+    const auto is_there = [&] {
+      return waiting_.contains(taken_) || taken_ == count_ || (stopped && taken_ == begun_);
+    };
+    while (!changed_.wait_for(lock, std::chrono::milliseconds(20), is_there)) {
+      lock.unlock();
+      stopped = !control_.keep_going();
+      lock.lock();
+    }
+    auto found = waiting_.extract(taken_);
+    if (found.empty()) return std::nullopt;
+    ++taken_;
+    changed_.notify_all();
+    return std::move(found.mapped());
+  }
+
+  bool whole = false;  // all were taken, without an exception
+
+ private:
+  template <class Make>
+  void work(const Make& make) {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      changed_.wait(lock,
+                    [&] { return !control_.keep_going() || begun_ == count_ || begun_ < taken_ + ahead_; });
+      if (!control_.keep_going() || begun_ == count_) return;
+      const std::size_t k = begun_++;
+      lock.unlock();
+      Made made;
+      try {
+        made.result.emplace(make(k));
+      } catch (...) {
+        made.failure = std::current_exception();
+      }
+      lock.lock();
+      waiting_.emplace(k, std::move(made));
+      changed_.notify_all();
+    }
+  }
+
+  const std::size_t count_, ahead_;
+  const Control& control_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<std::size_t, Made> waiting_;
+  std::size_t begun_ = 0, taken_ = 0;
+  std::vector<std::jthread> workers_;
+};
+
+}  // namespace detail
+
 /// take(make(k)) for k = 0 ... count - 1, in this order and in the calling thread, with make() in up to
 /// `threads` threads: the results are those of one thread. None is begun that far ahead of take() that more
 /// than twice as many results as threads wait for it. No k is begun after the end of `control`, which the
@@ -35,70 +118,14 @@ void in_order(std::size_t count, int threads, const Control& control, const Make
     for (std::size_t k = 0; k < count && control.keep_going(); ++k) take(make(k));
     return;
   }
-  struct Made {
-    std::optional<Result> result;
-    std::exception_ptr failure;
-  };
-  std::mutex mutex;
-  std::condition_variable changed;
-  std::map<std::size_t, Made> waiting;
-  std::size_t begun = 0, taken = 0;
-  const std::size_t ahead = 2 * static_cast<std::size_t>(threads);
-  const auto work = [&] {
-    std::unique_lock lock(mutex);
-    for (;;) {
-      changed.wait(lock, [&] { return !control.keep_going() || begun == count || begun < taken + ahead; });
-      if (!control.keep_going() || begun == count) return;
-      const std::size_t k = begun++;
-      lock.unlock();
-      Made made;
-      try {
-        made.result.emplace(make(k));
-      } catch (...) {
-        made.failure = std::current_exception();
-      }
-      lock.lock();
-      waiting.emplace(k, std::move(made));
-      changed.notify_all();
-    }
-  };
-  struct Crew {  // ends the threads, before what they use is gone
-    const Control& control;
-    std::mutex& mutex;
-    std::condition_variable& changed;
-    std::vector<std::jthread> workers{};
-    bool whole = false;
-    ~Crew() {
-      if (!whole) {
-        const std::lock_guard lock(mutex);
-        control.stop();
-      }
-      changed.notify_all();
-    }
-  } crew{control, mutex, changed};
-  const auto workers = std::min(static_cast<std::size_t>(threads), count);
-  for (std::size_t i = 0; i < workers; ++i) crew.workers.emplace_back(work);
-  for (;;) {
-    std::unique_lock lock(mutex);
-    // What is begun is taken, also after a stop.
-    bool stopped = false;
-    const auto is_there = [&] {
-      return waiting.contains(taken) || taken == count || (stopped && taken == begun);
-    };
-    while (!changed.wait_for(lock, std::chrono::milliseconds(20), is_there)) {
-      lock.unlock();
-      stopped = !control.keep_going();
-      lock.lock();
-    }
-    const auto next = waiting.extract(taken);
-    if (next.empty()) break;
-    ++taken;
-    changed.notify_all();
-    lock.unlock();
-    if (next.mapped().failure) std::rethrow_exception(next.mapped().failure);
-    take(std::move(*next.mapped().result));
+  const auto most = static_cast<std::size_t>(threads);
+  detail::OrderedLoop<Result> loop(count, 2 * most, control);
+  loop.start(std::min(most, count), make);
+  while (auto made = loop.next()) {
+    if (made->failure) std::rethrow_exception(made->failure);
+    take(std::move(*made->result));
   }
-  crew.whole = true;
+  loop.whole = true;
 }
 
 }  // namespace arcslip::control

@@ -76,7 +76,7 @@ void DesignEvaluations::tell() {
 }
 
 void DesignEvaluations::begin(const char* phase) {
-  if (control_.keep_going()) phase_ = phase;  // else it is that of the end
+  if (control_.ending().reason == control::EndReason::none) phase_ = phase;  // else it is that of the end
   tell();
 }
 

@@ -2,7 +2,6 @@
 
 #include <arcslip/control/interruptible.hpp>
 
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -35,7 +34,6 @@ nb::dict as_dict(const control::Progress& now) {
 
 /// What the thread that computes and the one that waits share.
 struct Shared {
-  std::atomic<bool> stop = false;
   std::mutex mutex;
   std::condition_variable changed;
   bool finished = false;
@@ -43,17 +41,12 @@ struct Shared {
   std::exception_ptr failure;
 };
 
-/// Factorizations that nobody waits for any more; the process joins them when it exits.
-control::AbandonedThreads& abandoned() {
-  static control::AbandonedThreads threads;
-  return threads;
-}
-
 /// Lets Python handle its signals, and reports. Called with the interpreter's lock.
-void poll(Shared& shared, const nb::object& report, const std::optional<control::Progress>& latest) {
+void poll(const control::Control& control, const nb::object& report,
+          const std::optional<control::Progress>& latest) {
   if (PyErr_CheckSignals() != 0) throw nb::python_error();
   if (!latest || report.is_none()) return;
-  if (report(as_dict(*latest)).is(nb::bool_(false))) shared.stop = true;
+  if (report(as_dict(*latest)).is(nb::bool_(false))) control.stop();
 }
 
 }  // namespace
@@ -61,13 +54,12 @@ void poll(Shared& shared, const nb::object& report, const std::optional<control:
 std::optional<nb::python_error> supervised(const nb::object& report,
                                            const std::function<void(const control::Control&)>& work) {
   Shared shared;
-  const control::Control control({.report =
-                                      [&](const control::Progress& now) {
-                                        const std::lock_guard lock(shared.mutex);
-                                        shared.latest = now;
-                                      },
-                                  .flag = &shared.stop,
-                                  .abandoned = &abandoned()});
+  static control::AbandonedThreads abandoned;  // joined when the interpreter has ended
+  const auto keep = [&](const control::Progress& now) {
+    const std::lock_guard lock(shared.mutex);
+    shared.latest = now;
+  };
+  const control::Control control{{.report = keep, .abandoned = &abandoned}};
   std::optional<nb::python_error> ended_by;
   {
     const nb::gil_scoped_release released;
@@ -88,10 +80,10 @@ std::optional<nb::python_error> supervised(const nb::object& report,
       if (!ended_by) {
         const nb::gil_scoped_acquire held;
         try {
-          poll(shared, report, latest);
+          poll(control, report, latest);
         } catch (nb::python_error& error) {
           ended_by.emplace(std::move(error));
-          shared.stop = true;
+          control.stop();
         }
       }
       lock.lock();

@@ -1,6 +1,7 @@
 #include "catch.hpp"
 #include "lib/output/support.hpp"
 
+#include <arcslip/control/run_control.hpp>
 #include <arcslip/output/atomic_file.hpp>
 #include <arcslip/output/figure_labels.hpp>
 #include <arcslip/output/figures.hpp>
@@ -211,8 +212,9 @@ TEST_CASE("a program that takes too long, or is asked to stop, is ended with all
   const TemporaryFolder folder;
   const std::string script = "sleep 600 & echo $! > child; echo said; exec sleep 600";
   for (const bool asked : {false, true}) {
-    const output::ProcessLimits limits{[&] { return asked && support::fs::exists(folder / "child"); },
-                                       std::chrono::milliseconds(asked ? 600'000 : 500)};
+    const control::Control control(
+        {.poll = [&] { return !asked || !support::fs::exists(folder / "child"); }});
+    const output::ProcessLimits limits{control, std::chrono::milliseconds(asked ? 600'000 : 500)};
     const auto result = output::run_program("sh", {"-c", script}, folder.path(), limits);
     CHECK(result.end == (asked ? output::ProcessEnd::stopped : output::ProcessEnd::out_of_time));
     CHECK(result.signal == SIGKILL);
