@@ -22,7 +22,7 @@ constexpr bool are_errors = (std::is_base_of_v<Error, Exceptions> && ...);
 
 static_assert(
     are_errors<scene::SceneError, scene::FileError, scene::ParameterError, scene::MatrixError,
-               scene::Interrupted, structure::ReductionError, model::NotReduced, output::WriteError>);
+               control::Interrupted, structure::ReductionError, model::NotReduced, output::WriteError>);
 static_assert(are_errors<time::NoVariation, time::SingularMass, time::NotInTime, time::NotPiecewiseLinear,
                          optimize::OptionsError>);
 

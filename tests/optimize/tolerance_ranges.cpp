@@ -32,12 +32,12 @@ double amplitude(const Absorber& of, double w) {
   return std::abs((d - of.mu * w * w) / ((host + d) * (d - of.mu * w * w) - d * d));
 }
 
-constexpr double from = 0.5, to = 1.6;
+constexpr double window_from = 0.5, window_to = 1.6;
 
 /// The highest of all maxima over the window, each by golden sections.
 double highest_peak(const Absorber& of) {
   constexpr int count = 4400;
-  const auto at = [](int i) { return from + (to - from) * i / count; };
+  const auto at = [](int i) { return window_from + (window_to - window_from) * i / count; };
   std::vector<double> a(count + 1);
   for (int i = 0; i <= count; ++i) a[static_cast<std::size_t>(i)] = amplitude(of, at(i));
   double most = std::max(a.front(), a.back());
@@ -112,11 +112,11 @@ void check(const Absorber& start, const optimize::OptimumProblem& problem) {
 
 TEST_CASE("the tolerance range of an absorber ends where either of its peaks is too high") {
   const double ka = 0.04988568809570706;
-  check({0.05, 0, ka, 0.0127558}, {{{"ka.value", 0.03, 0.07}}, from, to});
+  check({0.05, 0, ka, 0.0127558}, {{{"ka.value", 0.03, 0.07}}, window_from, window_to});
   check({0.05, 0, ka, 0.010204683713231502}, {{{"ka.value", 0.022675312770775932, 0.09070125108310373},
                                                {"ca.value", 0.003826756392461813, 0.038267563924618136}},
-                                              from,
-                                              to});
+                                              window_from,
+                                              window_to});
 }
 
 TEST_CASE("tolerance ranges of random absorbers end where the closed form does") {
@@ -127,7 +127,7 @@ TEST_CASE("tolerance ranges of random absorbers end where the closed form does")
     const double mu = random.logarithmic(0.01, 0.4), cp = random.one_in(3) ? 0 : random.between(0, 0.03);
     const double ka = mu / ((1 + mu) * (1 + mu)), ca = 2 * mu * std::sqrt(3 * mu / 8 / std::pow(1 + mu, 3));
     const Absorber start{mu, cp, random.logarithmic(0.8, 1.25) * ka, random.logarithmic(0.7, 1.4) * ca};
-    optimize::OptimumProblem problem{{}, from, to};
+    optimize::OptimumProblem problem{{}, window_from, window_to};
     const int over = random.count(1, 3);
     if (over != 2) problem.over.push_back({"ka.value", 0.5 * ka, 2 * ka});
     if (over != 1) problem.over.push_back({"ca.value", 0.3 * ca, 3 * ca});

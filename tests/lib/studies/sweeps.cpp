@@ -86,9 +86,9 @@ TEST_CASE("figures of sweeps have a line for each direction, broken and marked a
   const scene::Scene s = swept();
   std::vector<results::FigureData> figures;
   results::Collector collector;
-  const scene::StudyType& type = *s.studies[0].type;
-  collector.begin({}, std::vector{type.schema(s, s.studies[0], {})});
-  figures = type.run(s, s.studies[0], {.figures = true}, 0, collector);
+  const studies::StudyKind& kind = studies::kind_of(*s.studies[0].type);
+  collector.begin({}, std::vector{kind.schema(s, s.studies[0], {})});
+  figures = kind.run(s, s.studies[0], {.figures = true}, 0, collector);
   REQUIRE(figures.size() == 1);
   REQUIRE(figures[0].lines.size() == 2);
   CHECK(figures[0].lines[0].label == "up");
