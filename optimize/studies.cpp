@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 namespace arcslip::optimize {
@@ -266,12 +267,15 @@ studies::Truncation truncation_of(std::span<const OptimumResult> optima) {
   return found;
 }
 
+// What a computation describes refers to its settings, which it therefore owns.
+using SharedSettings = std::shared_ptr<const OptimumSettings>;
+
 std::unique_ptr<studies::Computation> computed_curve(const scene::Scene& scene,
-                                                     const OptimumSettings& settings) {
+                                                     const SharedSettings& settings) {
   auto of = std::make_unique<studies::ComputationOf<OptimumCurveResult>>(
-      described_curves(scene, settings.problem, settings.along->name),
+      described_curves(scene, settings->problem, settings->along->name),
       [settings](const studies::Case& at, const control::Control& control) {
-        return std::vector{optimum_curve_study(at.scene, settings, control)};
+        return std::vector{optimum_curve_study(at.scene, *settings, control)};
       },
       [&scene](std::span<const OptimumCurveResult> all) { return std::vector{figures_of(scene, all)}; });
   of->truncation_of_items = [](std::span<const OptimumCurveResult> all) { return truncation_of(all); };
@@ -281,15 +285,15 @@ std::unique_ptr<studies::Computation> computed_curve(const scene::Scene& scene,
 std::unique_ptr<studies::Computation> computed_optimum(const scene::Scene& scene,
                                                        const OptimumSettings& given,
                                                        const studies::RunOptions& options) {
-  const OptimumSettings settings = with_places(scene, given);
-  check_limits(scene, settings.problem);  // before the first study of a run
-  if (settings.along) return computed_curve(scene, settings);
+  const SharedSettings settings = std::make_shared<const OptimumSettings>(with_places(scene, given));
+  check_limits(scene, settings->problem);  // before the first study of a run
+  if (settings->along) return computed_curve(scene, settings);
   auto of = std::make_unique<studies::ComputationOf<OptimumResult>>(
-      described_optima(scene, settings.problem),
+      described_optima(scene, settings->problem),
       [settings, curves = options.figures, threads = options.threads](const studies::Case& at,
                                                                       const control::Control& control) {
         return std::vector{
-            optimum_study(at.scene, settings, control,
+            optimum_study(at.scene, *settings, control,
                           {.curves = curves, .alone = at.alone, .threads = at.alone ? threads : 1})};
       },
       [&scene](std::span<const OptimumResult> all) { return figures_of(scene, all); });

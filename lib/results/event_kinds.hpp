@@ -57,7 +57,7 @@ inline constexpr EventKind neimark_sacker{
     "a pair of multipliers is on the unit circle: motions with a second frequency begin or end",
     "responses with stability, curves of bifurcations"};
 inline constexpr EventKind symmetry_breaking{"symmetry_breaking",
-                                             "symmetry breaking",
+                                             "break of symmetry",
                                              {Shape::diamond, 1.1, 1.5},
                                              "motions that are not antisymmetric begin or end at one that is",
                                              "responses with stability, curves of bifurcations"};

@@ -104,7 +104,7 @@ void BifurcationTracer::set_end(const continuation::Branch& branch, SpecialCurve
               (half ? ", of the map over half a period" : "") + ", a resonance 1:" + (folds ? "1" : "2") +
               ": the curve ends on one of " +
               (folds  ? "folds"
-               : half ? "symmetry breaking"
+               : half ? "breaks of symmetry"
                       : "period doublings");
     return;
   }
