@@ -50,6 +50,7 @@ TEST_CASE("random searches with limits: none is complete where another way comes
     if (found.status != observables::Status::complete && !at_end) continue;
     ++complete;
     CHECK(found.feasible);
+    if (at_end) continue;  // stopped: a wider window is asked for, and no lowest amplitude is promised
     CAPTURE(other.amplitude, other.by, other.design);
     CHECK(found.amplitude <= other.amplitude * (1 + 1e-6));
   }
