@@ -13,7 +13,7 @@ def run(
     coefficients: bool,
     threads: int,
     report: Callable[[dict[str, Any]], object] | None,
-) -> tuple[Results, BaseException | None]: ...
+) -> tuple[Results, int, BaseException | None]: ...
 
 class Scene:
     @staticmethod

@@ -8,11 +8,13 @@ import json
 import keyword
 import os
 import textwrap
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _core
 from .arrays import as_json
+from .errors import ArcslipWarning
 from .results import Results, from_core, warn
 
 if TYPE_CHECKING:
@@ -51,12 +53,14 @@ def run(
         raise ValueError(f"found threads={threads}, must be at least 1")
     if progress is not None and not callable(progress):
         raise TypeError(f"found progress={progress!r}, must be callable")
-    found, error = _core.run(core, list(which), coefficients, threads or os.cpu_count() or 1, progress)
+    found, begun, error = _core.run(core, list(which), coefficients, threads or os.cpu_count() or 1, progress)
     results = from_core(found, core.labels)
     if error is not None:
         error.results = results  # type: ignore[attr-defined]
         raise error
     warn(found, 3)
+    if begun < len(which):
+        warnings.warn(f"stopped: {len(which) - begun} of {len(which)} studies were not started", ArcslipWarning, 3)
     return results
 
 

@@ -2,6 +2,7 @@
 
 #include "bindings.hpp"
 
+#include <arcslip/optimize/nlopt/minimize.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <nanobind/nanobind.h>
@@ -33,6 +34,8 @@ void translate(const std::exception_ptr& thrown, void* /*payload*/) {
     raise("ParameterError", error.what());
   } catch (const scene::FileError& error) {
     PyErr_SetString(PyExc_OSError, error.what());
+  } catch (const optimize::OptionsError& error) {
+    PyErr_SetString(PyExc_ValueError, error.what());
   }
 }
 

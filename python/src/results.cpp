@@ -119,24 +119,27 @@ std::pair<std::vector<std::string>, std::vector<std::string>> remarks(const Resu
   return {all.early_ends, all.doubts};
 }
 
-void compute(const scene::Scene& scene, const std::vector<std::size_t>& which,
-             const control::Control& control, studies::RunOptions options, results::Collector& collector) {
+/// Returns how many of the studies were begun.
+std::size_t compute(const scene::Scene& scene, const std::vector<std::size_t>& which,
+                    const control::Control& control, studies::RunOptions options,
+                    results::Collector& collector) {
   options.control = control;
   observables::prepare(scene, control);
   std::vector<results::Schema> schemas;
   for (const std::size_t i : which)
     schemas.push_back(studies::kind_of(*scene.studies[i].type).schema(scene, scene.studies[i], options));
   collector.begin(studies::header(scene), schemas);
-  for (std::size_t k = 0; k < which.size() && control.keep_going(); ++k) {
-    const scene::Study& study = scene.studies[which[k]];
-    studies::kind_of(*study.type).run(scene, study, options, k, collector);
+  std::size_t begun = 0;
+  for (; begun < which.size() && control.keep_going(); ++begun) {
+    const scene::Study& study = scene.studies[which[begun]];
+    studies::kind_of(*study.type).run(scene, study, options, begun, collector);
   }
   collector.finish();
-  for (results::Result& result : collector.results.results)
-    for (results::Rows& rows : result.tables) mark_missing(rows);
+  return begun;
 }
 
-/// The results of these studies of a scene, and the exception that ended them early, or None.
+/// The results of these studies of a scene, how many of them were begun, and the exception that ended them
+/// early, or None.
 nb::tuple run(const scene::Scene& scene, const std::vector<std::size_t>& which, bool coefficients,
               int threads, const nb::object& report) {
   for (const std::size_t i : which) static_cast<void>(scene.studies.at(i));
@@ -144,10 +147,14 @@ nb::tuple run(const scene::Scene& scene, const std::vector<std::size_t>& which, 
   studies::RunOptions options;
   options.coefficients = coefficients;
   options.threads = threads;
-  const auto ended_by = supervised(
-      report, [&](const control::Control& control) { compute(scene, which, control, options, collector); });
+  std::size_t begun = 0;
+  const auto ended_by = supervised(report, [&](const control::Control& control) {
+    begun = compute(scene, which, control, options, collector);
+  });
+  for (results::Result& result : collector.results.results)
+    for (results::Rows& rows : result.tables) mark_missing(rows);
   nb::object error = ended_by ? nb::borrow(ended_by->value()) : nb::none();
-  return nb::make_tuple(std::move(collector.results), error);
+  return nb::make_tuple(std::move(collector.results), begun, error);
 }
 
 }  // namespace

@@ -84,6 +84,9 @@ std::optional<nb::python_error> supervised(const nb::object& report,
         } catch (nb::python_error& error) {
           ended_by.emplace(std::move(error));
           control.stop();
+        } catch (...) {
+          control.stop();  // the thread is joined on the way out
+          throw;
         }
       }
       lock.lock();

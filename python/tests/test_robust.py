@@ -54,7 +54,7 @@ def test_callback_may_use_the_scene_and_drop_it(oscillator: dict[str, Any]) -> N
 
 def test_extension_refuses_what_is_not_there(scene: arcslip.Scene) -> None:
     core = scene._data
-    results, _ = _core.run(core, [0], False, 1, None)
+    results, _, _ = _core.run(core, [0], False, 1, None)
     for call in [
         lambda: _core.run(core, [1], False, 1, None),
         lambda: results.facts(5),

@@ -8,6 +8,7 @@ import inspect
 import pickle
 import threading
 import time
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -182,3 +183,14 @@ def test_results_can_be_pickled(scene: arcslip.Scene) -> None:
         assert a.set == b.set and a.units == b.units and a.stop == b.stop
         for name in b.points.columns:
             assert pickle.dumps(a[name]) == pickle.dumps(b[name].copy())
+
+
+def test_studies_that_a_stop_leaves_out_are_warned_of(oscillator: dict[str, Any]) -> None:
+    many = {"damper.normal_load": [float(i) for i in range(1, 20001)]}
+    frf = {"kind": "frf", "from": 18, "to": 22}
+    oscillator["studies"] = [{"name": "long", **frf, "for_each": many}, {"name": "next", **frf}]
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        results = arcslip.Scene(oscillator).run(progress=lambda now: False)
+    assert str(seen[-1].message) == "stopped: 1 of 2 studies were not started"
+    assert {result.study for result in results} == {"long"}
