@@ -54,8 +54,8 @@ class OrderedLoop {
 
   /// Waits for the next result; nothing: there is none. What is begun is taken, also after a stop.
   std::optional<Made> next() {
+    bool stopped = !control_.keep_going();
     std::unique_lock lock(mutex_);
-    bool stopped = false;
     const auto is_there = [&] {
       return waiting_.contains(taken_) || taken_ == count_ || (stopped && taken_ == begun_);
     };

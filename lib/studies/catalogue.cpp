@@ -49,11 +49,15 @@ void run(const scene::Scene& scene, const RunOptions& options, results::Sink& si
   for (const scene::Study& study : scene.studies)
     schemas.push_back(kind_of(*study.type).schema(scene, study, options));
   sink.begin(header(scene), schemas);
+  bool any_begun = false;  // one says that it was stopped
   for (auto list = schemas.begin(); list != schemas.end(); ++list) {
     const auto in_list = [&](const results::Schema& schema) { return schema.list == list->list; };
     if (std::find_if(schemas.begin(), list, in_list) != list) continue;  // done with the first of them
-    for (std::size_t i = 0; i < schemas.size() && options.control.keep_going(); ++i)
-      if (in_list(schemas[i])) kind_of(*scene.studies[i].type).run(scene, scene.studies[i], options, i, sink);
+    for (std::size_t i = 0; i < schemas.size(); ++i) {
+      if (!in_list(schemas[i]) || (any_begun && !options.control.keep_going())) continue;
+      any_begun = true;
+      kind_of(*scene.studies[i].type).run(scene, scene.studies[i], options, i, sink);
+    }
   }
   sink.finish();
 }

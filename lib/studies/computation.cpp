@@ -68,7 +68,7 @@ void compute_by_orders(const Computation& of, const Case& at, const control::Con
       items = std::move(refined->items);
     else if (first || of_order.keep_going())
       items = of.compute(higher, of_order);
-    if (!first && !of_order.keep_going()) {
+    if (!first && of_order.ending().reason != control::EndReason::none) {
       selection.give_up();
       return;
     }

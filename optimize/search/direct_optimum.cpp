@@ -84,7 +84,7 @@ DirectOptimum direct_optimum(const scene::Scene& scene, const OptimumProblem& pr
     higher = least_minimum(scene, problem, space, control, result);
   } catch (const Interrupted&) {
   }
-  if (!control.keep_going()) {
+  if (control.ending().reason != control::EndReason::none) {
     result.found = false;
     result.message = "stopped by the caller";
   } else if (!result.found) {

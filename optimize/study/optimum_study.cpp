@@ -288,7 +288,7 @@ OptimumResult optimum_study(const scene::Scene& given, const OptimumSettings& se
   result.stop = result.optimum.stop;
   if (of_study.keep_going() && !result.optimum.design.empty())
     add_curves(result, scene, extent, of_study, teller);
-  if (!of_study.keep_going() && result.status == observables::Status::complete)
+  if (of_study.ending().reason != control::EndReason::none && result.status == observables::Status::complete)
     end_early(result, interruption(of_study, teller.phase()));
   return result;
 }
