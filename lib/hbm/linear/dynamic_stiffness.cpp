@@ -195,6 +195,7 @@ Eigen::MatrixXd DynamicStiffness::motion(const Eigen::MatrixXd& P, In u, double 
 }
 
 void DynamicStiffness::response_transposed(In a, Out g, int place) const {
+  g.tail(g.size() - r_ * size_).setZero();  // further unknowns, of elements, do not move the response
   for (Harmonic& at : harmonics_) {  // L^T; with a real inner product the transpose is the conjugate
     const auto by = at.condensed.of_observations(responses_).row(place);
     for (int i = 0; i < r_; ++i) at.put(std::conj(by[i]) * at.amplitude(a, 0), i * size_, g);

@@ -241,3 +241,19 @@ TEST_CASE("smooth hysteresis keeps numbers and bounds at all amplitudes, in step
       }
     }
 }
+
+TEST_CASE("the gradient of the response has no entry for the memory of an element, whatever stood there") {
+  const scene::Scene s = scenes::parse(one_mass);
+  const auto model = std::make_shared<const model::Model>(model::build(s));
+  const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+  const auto at = problem.hbm_evaluator();
+  const VectorXd u = VectorXd::LinSpaced(problem.size(), 0.1, 0.7);
+  REQUIRE(at->move_to(u, hbm::parameters_at(problem, 0.9), continuation::Needs::jacobian) ==
+          continuation::Evaluated::ok);
+  const VectorXd a = VectorXd::LinSpaced(problem.harmonics().size(), -1, 2);
+  VectorXd g = VectorXd::Constant(problem.size(), std::nan("")), x(a.size());
+  at->stiffness().response_transposed(a, g);
+  REQUIRE(g.allFinite());
+  at->stiffness().response(u, 0, x);  // L u
+  CHECK(g.dot(u) == Approx(a.dot(x)).epsilon(1e-13));
+}
