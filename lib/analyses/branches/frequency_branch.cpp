@@ -125,9 +125,9 @@ std::shared_ptr<const hbm::HbmProblem> problem_at(const std::shared_ptr<const mo
   }
 }
 
-bool may_have_several_responses(const model::Model& model) {
+std::ptrdiff_t elements_with_several_responses(const model::Model& model) {
   const Vector p = model::defaults(model);
-  return std::any_of(model.elements.begin(), model.elements.end(), [&](const auto& element) {
+  return std::count_if(model.elements.begin(), model.elements.end(), [&](const auto& element) {
     const std::vector<double> fields = element.fields(p);
     for (int i = 0; i < element.law->directions(); ++i)
       if (element.law->traits(fields, i).several_responses) return true;

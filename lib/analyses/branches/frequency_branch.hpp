@@ -33,8 +33,11 @@ struct FirstResponse {
   std::string failure;
 };
 
-/// Whether a law of the model may have several responses at one frequency.
-bool may_have_several_responses(const model::Model& model);
+/// The number of elements with a law that may have several responses at one frequency.
+std::ptrdiff_t elements_with_several_responses(const model::Model& model);
+inline bool may_have_several_responses(const model::Model& model) {
+  return elements_with_several_responses(model) > 0;
+}
 
 /// Of a scene whose matrices are small or reduced (model/reduction_report.hpp). control: Model::control.
 std::shared_ptr<const model::Model> model_of(const scene::Scene& scene, control::Control control);

@@ -52,6 +52,19 @@ bool mirrors(const hbm::HbmProblem& problem) {
 
 }  // namespace
 
+EndSearch end_search(const model::Model& model) {
+  const auto several = elements_with_several_responses(model);
+  if (several == 0) return EndSearch::needless;
+  return several > most_searched_elements ? EndSearch::left_out : EndSearch::made;
+}
+
+std::string without_search(const model::Model& model) {
+  if (end_search(model) != EndSearch::left_out) return {};
+  return "; other responses were not looked for, since " +
+         std::to_string(elements_with_several_responses(model)) +
+         " elements may have several at one frequency; frf with \"branches\": \"all\" looks for them";
+}
+
 std::vector<Vector> images(const hbm::HbmProblem& problem, const Vector& u) {
   const double half = std::numbers::pi / problem.harmonics().period;  // of a period of the excitation
   std::vector<Vector> all;

@@ -10,12 +10,24 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace arcslip::observables {
 
 inline constexpr const char* stopped_in_search =
     "stopped by the caller, while responses next to those traced were looked for";
+
+/// Whether further_responses() are looked for without being asked for by `"branches": "all"`: where laws may
+/// have several responses at one frequency, and no more than `most_searched_elements` have such a law. With
+/// more the search takes longer than the branch.
+enum class EndSearch { needless, made, left_out };
+EndSearch end_search(const model::Model& model);
+inline constexpr int most_searched_elements = 20;
+
+/// The end of the message of a branch or response next to which none was looked for; empty if needless or
+/// made.
+std::string without_search(const model::Model& model);
 
 /// A solution u and its images, which are solutions as well: later by periods of the excitation, where the
 /// motion takes several to repeat, or mirrored where the equations have this symmetry.

@@ -60,7 +60,7 @@ class SpecialPointSearch {
     // Responses above the fold at which it turned back are on another branch, or reached from above.
     if (turned_back) add_from({{window_.upper}}, -1);
     if (others == OtherBranches::from_ends && found_.failure.empty() && problem_ &&
-        may_have_several_responses(*model_))
+        end_search(*model_) == EndSearch::made)
       add_others_from_ends();
     return std::move(found_);
   }

@@ -153,8 +153,11 @@ class Sweep {
     std::vector<ResponseBranch> branches;
     const auto problem = pieces.back().problem;
     for (TracedBranch& piece : pieces) branches.push_back(std::move(piece.response));
-    if (!problem || branches.back().status == Status::failed || !may_have_several_responses(*model_))
+    if (!problem || branches.back().status == Status::failed) return branches;
+    if (end_search(*model_) != EndSearch::made) {
+      branches.back().stop.message += without_search(*model_);
       return branches;
+    }
     for (const double end : {lower_, upper_})
       for (const Vector& u : further_responses(problem, hbm::parameters_at(*problem, end),
                                                responses_at_end(branches, end), control_)) {

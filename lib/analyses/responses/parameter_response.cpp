@@ -47,7 +47,7 @@ class Traces {
 
   std::vector<ResponseBranch> run() {
     control_.report(progress_);
-    const ResponsesAt starts = responses_at(way_.model, omega_, control_);
+    const ResponsesAt starts = responses_at(way_.model, omega_, end_search(*way_.model), control_);
     if (!control_.keep_going()) return {stopped()};
     if (!starts.unbounded.empty()) return {failed("no response is bounded", starts.unbounded)};
     if (starts.u.empty()) return {failed("no periodic response was found", starts.failure)};
@@ -70,6 +70,7 @@ class Traces {
       branches.back().stop = {reasons::user, way_.from, way_.to, stopped_in_search};
       return branches;
     }
+    branches.back().stop.message += without_search(*way_.model);
     // A branch that turned back is complete if others cover the range beyond.
     for (ResponseBranch& branch : branches)
       if (!far_ends.empty() && branch.stop.reason == reasons::boundary) branch.status = Status::complete;

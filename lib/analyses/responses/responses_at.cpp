@@ -169,7 +169,8 @@ class Points {
 
   std::vector<PointResponse> run(std::span<const PointResponse> known) {
     control_.report(progress_);
-    const ResponsesAt found = responses_at(model_, omega_, control_, guesses(known));
+    const ResponsesAt found =
+        responses_at(model_, omega_, end_search(*model_), control_, guesses(known));
     if (!control_.keep_going()) return {ended(Status::stopped, reasons::user, "stopped by the caller")};
     if (!found.unbounded.empty())
       return {ended(Status::failed, reasons::unbounded,
@@ -188,6 +189,7 @@ class Points {
                                    frequency_text(found.window.lower, scene_.frequency_unit) + " to " +
                                    frequency_text(found.window.upper, scene_.frequency_unit) +
                                    ", by deflation, and on the branches through those";
+      if (all.back().status == Status::complete) all.back().stop.message += without_search(*model_);
       if (!found.doubt.empty()) all.back().doubt = found.doubt;
     }
     return all;
@@ -257,7 +259,7 @@ class Points {
 
 }  // namespace
 
-ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega,
+ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega, EndSearch search,
                          const control::Control& control, const std::vector<Vector>& guesses) {
   ResponsesAt found;
   const auto stopped = [&] { return !control.keep_going(); };
@@ -270,13 +272,14 @@ ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, doubl
   found.failure = first.failure;
   if (stopped() || !first.u) return found;
   found.u.push_back(*first.u);
-  if (may_have_several_responses(*model)) ResponseSearch(model, omega, control, found).run(guesses);
+  if (search == EndSearch::made) ResponseSearch(model, omega, control, found).run(guesses);
   return found;
 }
 
 ResponseOfAmplitude response_of_amplitude(const std::shared_ptr<const model::Model>& model, double omega,
                                           double amplitude, const control::Control& control) {
-  const ResponsesAt all = responses_at(model, omega, control);
+  const auto search = may_have_several_responses(*model) ? EndSearch::made : EndSearch::needless;
+  const ResponsesAt all = responses_at(model, omega, search, control);
   ResponseOfAmplitude found;
   found.problem = all.problem;
   found.failure = all.unbounded.empty() ? all.failure : all.unbounded;

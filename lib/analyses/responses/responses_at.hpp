@@ -2,6 +2,7 @@
 // The periodic responses at one excitation frequency.
 
 #include <arcslip/analyses/branches/frequency_branch.hpp>
+#include <arcslip/analyses/branches/other_solutions.hpp>
 #include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/analyses/responses/stick_offset_range.hpp>
 #include <arcslip/control/run_control.hpp>
@@ -20,7 +21,7 @@
 
 namespace arcslip::observables {
 
-/// Responses at omega and the model's own parameters, each once. If a law may have several responses: those
+/// Responses at omega and the model's own parameters, each once. With a search: those
 /// at which the frequency branch to 4 omega passes omega, also next to a fold, from omega/4 on or from below
 /// the lowest natural frequency above omega/10; others by further_responses() and deflation
 /// (analyses/branches/other_solutions.hpp); and where the branches through each of them, in the same window,
@@ -34,7 +35,7 @@ struct ResponsesAt {
   std::string doubt;             // why others on those branches may be missing; empty: none are
 };
 /// guesses: unknowns near further ones.
-ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega,
+ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, double omega, EndSearch search,
                          const control::Control& control = {},
                          const std::vector<continuation::Vector>& guesses = {});
 

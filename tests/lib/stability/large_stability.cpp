@@ -53,7 +53,7 @@ TEST_CASE("a large structure has the multipliers of its low modes, with an error
 
   // Of the same motion with all modes.
   const auto model = std::make_shared<const model::Model>(model::build(s));
-  const auto at = observables::responses_at(model, omega);
+  const auto at = observables::responses_at(model, omega, observables::EndSearch::needless);
   REQUIRE_FALSE(at.u.empty());
   const auto p = hbm::parameters_at(*at.problem, omega);
   const auto evaluator = at.problem->hbm_evaluator();
