@@ -32,7 +32,7 @@ At at(const scene::Scene& scene, bool odd) {
   const double omega = 20 * scene::to_rad_per_s(scene::FrequencyUnit::hertz);
   At found{std::make_shared<const hbm::HbmProblem>(model, h, 1e-3, 1.0, omega), {}, {}};
   found.p = hbm::parameters_at(*found.problem, omega);
-  found.u = hbm::steady_state(found.problem, found.p).value();
+  found.u = hbm::steady_state(found.problem, found.p).u.value();
   return found;
 }
 

@@ -109,7 +109,7 @@ std::shared_ptr<const hbm::HbmProblem> problem_of(scene::Scene scene, int order,
 Balanced exact(const scene::Scene& scene, double frequency, int order) {
   Balanced result{problem_of(scene, order, 0), {}, {}};
   result.p = hbm::parameters_at(*result.problem, frequency * scene::to_rad_per_s(scene.frequency_unit));
-  const auto u = hbm::steady_state(result.problem, result.p);
+  const auto u = hbm::steady_state(result.problem, result.p).u;
   if (!u) throw std::runtime_error("no response");
   result.u = *u;
   return result;

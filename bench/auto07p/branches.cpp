@@ -121,7 +121,7 @@ Case duffing(int order) {
   const auto problem =
       std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1.0, options.upper - options.lower);
   const Vector p = hbm::parameters_at(*problem, options.lower);
-  const auto start = hbm::steady_state(problem, p);
+  const auto start = hbm::steady_state(problem, p).u;
   if (!start) throw std::runtime_error("no periodic response at the start");
   return {problem, {*start, p, model::frequency, 1}, options, 2};
 }

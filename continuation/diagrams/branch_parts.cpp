@@ -57,12 +57,7 @@ void append(Branch& branch, Branch&& next) {
   for (std::string& warning : next.warnings)
     if (std::find(branch.warnings.begin(), branch.warnings.end(), warning) == branch.warnings.end())
       branch.warnings.push_back(std::move(warning));
-  branch.counts.points += next.counts.points;
-  branch.counts.rejected_steps += next.counts.rejected_steps;
-  branch.counts.residuals += next.counts.residuals;
-  branch.counts.jacobians += next.counts.jacobians;
-  branch.counts.factorizations += next.counts.factorizations;
-  branch.counts.solves += next.counts.solves;
+  branch.counts += next.counts;
 }
 
 void number(Branch& branch) {

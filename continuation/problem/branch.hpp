@@ -108,6 +108,16 @@ struct BranchStop {
 /// Work counters.
 struct Counts {
   long points = 0, rejected_steps = 0, residuals = 0, jacobians = 0, factorizations = 0, solves = 0;
+
+  Counts& operator+=(const Counts& other) {
+    points += other.points;
+    rejected_steps += other.rejected_steps;
+    residuals += other.residuals;
+    jacobians += other.jacobians;
+    factorizations += other.factorizations;
+    solves += other.solves;
+    return *this;
+  }
 };
 
 struct Branch {

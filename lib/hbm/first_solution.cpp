@@ -19,11 +19,17 @@ namespace {
 constexpr double least_part = 1e-3;  // of the excitation
 constexpr long longest_ramp = 3000;  // points; some 300 are usual, a branch that closes on itself never ends
 
+// Points on the way to a response are none of its branch.
+void add_without_points(continuation::Counts counts, continuation::Counts& work) {
+  counts.points = counts.rejected_steps = 0;
+  work += counts;
+}
+
 // The branch over the excitation factors from -1 to 1, from one of them on, such as from rest at 0. If all
 // laws are antisymmetric, u at -1 is -u at 1: so it may leave rest on either side, or return through 0, where
 // u need not be zero.
 std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vector p, double from,
-                           const Vector& u, const control::Control& control) {
+                           const Vector& u, const control::Control& control, continuation::Counts& work) {
   const int factor = problem->excitation_factor();
   p[factor] = from;
   continuation::Options options;
@@ -34,6 +40,7 @@ std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vec
   options.points = longest_ramp;
   options.control = control;
   const auto branch = continuation::trace(problem, {u, p, factor, 1}, options);
+  add_without_points(branch.counts, work);
   if (branch.stop.reason != continuation::StopReason::boundary) return {};
   const double end = branch.points.back().parameter;
   if (end != 1 && !(end == -1 && problem->model().antisymmetric))
@@ -44,7 +51,7 @@ std::optional<Vector> ramp(const std::shared_ptr<const HbmProblem>& problem, Vec
 // The response of the structure with its elements linearized at rest: all sliders stuck. Newton's method from
 // there, not from rest, where J may be all but singular: a motion of no size leaves the mean of a memory
 // open.
-Vector stuck_response(const HbmProblem& problem, const Vector& p) {
+Vector stuck_response(const HbmProblem& problem, const Vector& p, continuation::Counts& work) {
   const auto at = problem.hbm_evaluator();
   const Vector rest = Vector::Zero(problem.size());
   if (at->move_to(rest, p, Needs::jacobian) != Evaluated::ok)
@@ -53,17 +60,18 @@ Vector stuck_response(const HbmProblem& problem, const Vector& p) {
   lu.factorize(std::get<Eigen::MatrixXd>(at->jacobian()));
   Vector response(rest.size());
   lu.solve(at->residual(), response);
+  work += {.residuals = 1, .jacobians = 1, .factorizations = 1, .solves = 1};
   return -response;
 }
 
 // The ramp from the largest part of the excitation at which Newton's method converges.
 std::optional<Vector> ramp_from_part(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
-                                     const control::Control& control) {
+                                     const control::Control& control, continuation::Counts& work) {
   Vector part = p;
   double& factor = part[problem->excitation_factor()];
   for (factor = 0.5; factor >= least_part && control.keep_going(); factor *= 0.5)
-    if (const auto u = response_near(*problem, part, stuck_response(*problem, part)))
-      return ramp(problem, p, factor, *u, control);
+    if (const auto u = response_near(*problem, part, stuck_response(*problem, part, work), work))
+      return ramp(problem, p, factor, *u, control, work);
   return {};
 }
 
@@ -161,7 +169,7 @@ class Gradual final : public continuation::Problem {
 };
 
 std::optional<Vector> gradual(const std::shared_ptr<const HbmProblem>& problem, const Vector& p, bool springs,
-                              const control::Control& control) {
+                              const control::Control& control, continuation::Counts& work) {
   Vector with = p.head(p.size() - 1);
   const model::Model model = springs ? with_springs(problem->model(), with) : problem->model();
   DynamicStiffness linear(model, problem->coordinates(), problem->harmonics());
@@ -180,6 +188,7 @@ std::optional<Vector> gradual(const std::shared_ptr<const HbmProblem>& problem, 
   Vector at(p.size() + 1);
   at << p, 0;
   const auto branch = continuation::trace(equations, {u, at, static_cast<int>(p.size()), 1}, options);
+  add_without_points(branch.counts, work);
   if (branch.stop.reason != continuation::StopReason::boundary || branch.points.back().parameter != 1)
     return {};
   return branch.points.back().u;
@@ -191,7 +200,7 @@ constexpr double farthest_start = 4;                           // decades from t
 // Newton's method from motions at random, the same in each run: of a size for the mean and one for all
 // harmonics, which fall as 1/n^2.
 std::optional<Vector> from_random_starts(const HbmProblem& problem, const Vector& p,
-                                         const control::Control& control) {
+                                         const control::Control& control, continuation::Counts& work) {
   const Harmonics& h = problem.harmonics();
   const Vector scales = problem.scales();
   std::mt19937_64 random(1);
@@ -210,7 +219,7 @@ std::optional<Vector> from_random_starts(const HbmProblem& problem, const Vector
         u[at + h.cosine_index(n)] = size * between(-1, 1);
         if (n > 0) u[at + h.sine_index(n)] = size * between(-1, 1);
       }
-    if (const auto found = response_near(problem, p, u)) return found;
+    if (const auto found = response_near(problem, p, u, work)) return found;
   }
   return {};
 }
@@ -226,36 +235,46 @@ Vector linear_response(const HbmProblem& problem, const Vector& p) {
   return u;
 }
 
-std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, const Vector& guess) {
+std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, const Vector& guess,
+                                    continuation::Counts& work) {
   if (!guess.allFinite()) return {};
   const int n = problem.size();
-  continuation::Counts counts;
   continuation::NewtonOptions newton;
   newton.iterations = 30;
-  continuation::Corrector corrector(problem, p, model::frequency, newton, counts);
+  continuation::Corrector corrector(problem, p, model::frequency, newton, work);
   Vector v(n + 1);
   v << guess, p[model::frequency];
   if (!corrector.correct(v, Vector::Unit(n + 1, n), false).converged) return {};
   return v.head(n);
 }
 
-std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
-                                   const control::Control& control) {
+std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, const Vector& guess) {
+  continuation::Counts work;
+  return response_near(problem, p, guess, work);
+}
+
+SteadyState steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
+                         const control::Control& control) {
+  SteadyState found;
   const auto stopped = [&] { return !control.keep_going(); };
+  const auto is_found = [&](std::optional<Vector> u) {
+    found.u = std::move(u);
+    return found.u.has_value();
+  };
+  const auto is_near = [&](const Vector& guess) {
+    return is_found(response_near(*problem, p, guess, found.work));
+  };
   const Vector rest = Vector::Zero(problem->size());
-  if (stopped()) return {};
-  if (const auto found = response_near(*problem, p, rest)) return found;
-  for (const auto guess : {linear_response, stuck_response, response_on_springs}) {
-    if (stopped()) return {};
-    if (const auto found = response_near(*problem, p, guess(*problem, p))) return found;
-  }
-  if (const auto found = ramp(problem, p, 0, rest, control)) return found;
-  if (const auto found = ramp_from_part(problem, p, control)) return found;
-  for (const bool springs : {false, true}) {
-    if (stopped()) return {};
-    if (const auto found = gradual(problem, p, springs, control)) return found;
-  }
-  return from_random_starts(*problem, p, control);
+  if (stopped() || is_near(rest)) return found;
+  if (stopped() || is_near(linear_response(*problem, p))) return found;
+  if (stopped() || is_near(stuck_response(*problem, p, found.work))) return found;
+  if (stopped() || is_near(response_on_springs(*problem, p))) return found;
+  if (is_found(ramp(problem, p, 0, rest, control, found.work))) return found;
+  if (is_found(ramp_from_part(problem, p, control, found.work))) return found;
+  for (const bool springs : {false, true})
+    if (stopped() || is_found(gradual(problem, p, springs, control, found.work))) return found;
+  found.u = from_random_starts(*problem, p, control, found.work);
+  return found;
 }
 
 }  // namespace arcslip::hbm

@@ -30,7 +30,7 @@ std::optional<Vector> rest_of(const std::shared_ptr<const HbmProblem>& problem, 
   const auto at = problem->hbm_evaluator();
   if (at->move_to(rest, p, continuation::Needs::residual) != continuation::Evaluated::ok) return {};
   if (at->residual().isZero(0)) return rest;
-  const auto found = steady_state(problem, p, control);
+  const auto found = steady_state(problem, p, control).u;
   if (!found) return {};
   for (int i = 0; i < problem->blocks(); ++i)
     rest[i * problem->harmonics().size()] = (*found)[i * problem->harmonics().size()];

@@ -8,6 +8,7 @@
 // model's parameters ("frequency" first, rad/s), and last "excitation_factor", which scales all forces, from
 // rest (u = 0 at 0) to the scene (1).
 
+#include <arcslip/continuation/problem/branch.hpp>
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/control/workers.hpp>
 #include <arcslip/hbm/element_gather.hpp>
@@ -134,8 +135,16 @@ Vector parameters_at(const HbmProblem& problem, double omega);
 /// finite at an undamped resonance.
 Vector linear_response(const HbmProblem& problem, const Vector& p);
 
-/// Newton's method from a guess. Empty if it fails.
+/// Newton's method from a guess. Empty if it fails. Its work is added to `work`.
+std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, const Vector& guess,
+                                    continuation::Counts& work);
 std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, const Vector& guess);
+
+/// u: empty if none was found. work: of the search, without points and rejected steps on its ways.
+struct SteadyState {
+  std::optional<Vector> u;
+  continuation::Counts work;
+};
 
 /// Newton's method from rest, from the linear response and from those with all sliders stuck and with springs
 /// in place of the elements; if none converges, continuation in the excitation factor from rest at 0 to 1 or
@@ -144,7 +153,7 @@ std::optional<Vector> response_near(const HbmProblem& problem, const Vector& p, 
 /// structure without elements or, where that has no response, with springs in place of them, as for a mass
 /// between two stops; and Newton's method from motions at random, the same in each run. Empty if that fails,
 /// too, or if `control` ends meanwhile.
-std::optional<Vector> steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
-                                   const control::Control& control = {});
+SteadyState steady_state(const std::shared_ptr<const HbmProblem>& problem, const Vector& p,
+                         const control::Control& control = {});
 
 }  // namespace arcslip::hbm

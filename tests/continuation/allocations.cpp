@@ -69,7 +69,7 @@ TEST_CASE("a Newton iteration allocates nothing, up to 300 unknowns") {
       const auto model = std::make_shared<const model::Model>(model::build(scene));
       const auto problem = std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1e-3, 25.0);
       const continuation::Vector p = hbm::parameters_at(*problem, 125.5);
-      const auto u = hbm::steady_state(problem, p);
+      const auto u = hbm::steady_state(problem, p).u;
       REQUIRE(u);
       continuation::Counts counts;
       continuation::Corrector corrector(*problem, p, model::frequency, {}, counts);

@@ -179,17 +179,18 @@ FirstResponse first_response(const std::shared_ptr<const model::Model>& model, d
             "degree of freedom, or excite odd harmonics only, with an odd \"period\" of the harmonics, or "
             "let a "
             "contact that sticks hold it, with \"offset\": \"static\""};
-  const auto u = hbm::steady_state(problem, p, control);
-  if (!u && !control.keep_going()) return {problem, {}, "stopped by the caller"};
+  const auto [u, work] = hbm::steady_state(problem, p, control);
+  if (!u && !control.keep_going()) return {problem, {}, "stopped by the caller", work};
   if (!u) {
     return {
         problem,
         {},
         "Newton's method failed from rest, from the linear response and from motions at random, and so did "
         "continuation in the excitation level and in the forces of the elements" +
-            causes(*model, p) + held_by_friction(*model, p)};
+            causes(*model, p) + held_by_friction(*model, p),
+        work};
   }
-  return {problem_with(u->norm()), u, {}};
+  return {problem_with(u->norm()), u, {}, work};
 }
 
 continuation::Options frequency_options(const FrequencyWindow& window, Steps steps,
@@ -276,6 +277,7 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
   const FirstResponse first = first_response(model, from, width, control);
   if (!first.u) {
     FrequencyBranch none{first.problem, {}};
+    none.branch.counts = first.work;
     if (!control.keep_going()) {
       none.branch.stop = {continuation::StopReason::user, 1, 1, "stopped by the caller"};
       return none;
@@ -288,7 +290,9 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
                            : first.problem;
   continuation::Options options = frequency_options(window, steps, control);
   options.largest_state *= size_without_elements(*problem, window);
-  return traced(problem, *first.u, from, options, record, direction, steps, watched);
+  FrequencyBranch found = traced(problem, *first.u, from, options, record, direction, steps, watched);
+  found.branch.counts += first.work;
+  return found;
 }
 
 FrequencyBranch frequency_branch_part(const std::shared_ptr<const hbm::HbmProblem>& problem,

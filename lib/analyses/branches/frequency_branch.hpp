@@ -31,6 +31,7 @@ struct FirstResponse {
   std::shared_ptr<const hbm::HbmProblem> problem;
   std::optional<continuation::Vector> u;
   std::string failure;
+  continuation::Counts work{};
 };
 
 /// The number of elements with a law that may have several responses at one frequency.

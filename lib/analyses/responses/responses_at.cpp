@@ -169,8 +169,7 @@ class Points {
 
   std::vector<PointResponse> run(std::span<const PointResponse> known) {
     control_.report(progress_);
-    const ResponsesAt found =
-        responses_at(model_, omega_, end_search(*model_), control_, guesses(known));
+    const ResponsesAt found = responses_at(model_, omega_, end_search(*model_), control_, guesses(known));
     if (!control_.keep_going()) return {ended(Status::stopped, reasons::user, "stopped by the caller")};
     if (!found.unbounded.empty())
       return {ended(Status::failed, reasons::unbounded,
@@ -181,6 +180,7 @@ class Points {
     std::vector<PointResponse> all;
     for (const Vector& u : found.u) {
       all.push_back(at(found.problem, u));
+      if (all.size() == 1) add(found.work, all.back().solver);
       if (found.several) all.back().found = static_cast<int>(found.u.size());
       if (found.several && all.back().status == Status::complete)
         all.back().stop.message += (found.u.size() == 1 ? ", the only one found on the branch from "
@@ -270,6 +270,7 @@ ResponsesAt responses_at(const std::shared_ptr<const model::Model>& model, doubl
   const FirstResponse first = first_response(model, omega, omega, control);
   found.problem = first.problem;
   found.failure = first.failure;
+  found.work = first.work;
   if (stopped() || !first.u) return found;
   found.u.push_back(*first.u);
   if (search == EndSearch::made) ResponseSearch(model, omega, control, found).run(guesses);

@@ -30,6 +30,7 @@ struct ResponsesAt {
   std::shared_ptr<const hbm::HbmProblem> problem;
   std::vector<continuation::Vector> u;
   std::string unbounded, failure;
+  continuation::Counts work;     // of the first one
   bool several = false;          // may be: others were looked for
   FrequencyWindow window{0, 0};  // in which, rad/s
   std::string doubt;             // why others on those branches may be missing; empty: none are

@@ -14,7 +14,7 @@ void check_found(const scene::Scene& s, double omega) {
   const auto model = std::make_shared<const model::Model>(model::build(s));
   const auto problem = std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1e-4, 25);
   const auto p = hbm::parameters_at(*problem, omega);
-  const auto u = hbm::steady_state(problem, p);
+  const auto u = hbm::steady_state(problem, p).u;
   REQUIRE(u);
   const auto at = problem->hbm_evaluator();
   REQUIRE(at->move_to(*u, p, continuation::Needs::residual) == continuation::Evaluated::ok);

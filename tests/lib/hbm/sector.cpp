@@ -276,7 +276,7 @@ TEST_CASE("the response of one sector, spread over the ring, solves the equation
       const auto problem = std::make_shared<const hbm::HbmProblem>(one, one->harmonics, 1, 1);
       const hbm::HbmProblem full(all, all->harmonics, 1, 1);
       const Vector p = hbm::parameters_at(*problem, 0.9);
-      const auto u = hbm::steady_state(problem, p);
+      const auto u = hbm::steady_state(problem, p).u;
       REQUIRE(u);
       const auto at = problem->hbm_evaluator();
       REQUIRE(at->move_to(*u, p, Needs::residual) == continuation::Evaluated::ok);

@@ -5,8 +5,10 @@
 #include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
 
+#include <arcslip/analyses/branches/frequency_branch.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/model/model.hpp>
 #include <arcslip/results/reasons.hpp>
 
 #include <cmath>
@@ -190,4 +192,36 @@ TEST_CASE("a window that begins within a hysteresis is covered by a branch that 
 
   scenes::window(s).from = 0.5;
   CHECK(branches_of(s)[0].status == observables::Status::complete);
+}
+
+TEST_CASE("the work of a search from rest is counted, also in that of the branch which begins there") {
+  const auto s = scenes::paper(9, 2);
+  const double omega = 20 * scenes::hertz;
+  const auto model = std::make_shared<const model::Model>(model::build(s));
+  const auto problem = std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1e-4, 25);
+  const auto p = hbm::parameters_at(*problem, omega);
+  const auto found = hbm::steady_state(problem, p);
+  REQUIRE(found.u);
+  CHECK(found.work.points == 0);
+  CHECK(found.work.residuals > 30);  // Newton's method cycles from rest, and another way follows
+  CHECK(found.work.factorizations > 30);
+
+  // From the solution, one correction that is accepted takes a residual or two.
+  continuation::Counts work;
+  REQUIRE(hbm::response_near(*problem, p, *found.u, work));
+  CHECK(work.residuals >= 1);
+  CHECK(work.residuals <= 3);
+
+  const observables::FrequencyWindow window{omega, 1.01 * omega};
+  const auto first = observables::first_response(model, omega, window.upper - window.lower);
+  REQUIRE(first.u);
+  CHECK(first.work.residuals > 30);
+  const auto steps = observables::Steps::curve;
+  const auto whole = observables::frequency_branch(model, window, omega, {}, 1, steps).branch.counts;
+  const auto rest = observables::frequency_branch_part(first.problem, window, omega, window.upper, *first.u,
+                                                       {}, 1, steps, {}, {})
+                        .branch.counts;
+  CHECK(whole.points == rest.points);
+  CHECK(whole.residuals == rest.residuals + first.work.residuals);
+  CHECK(whole.factorizations == rest.factorizations + first.work.factorizations);
 }

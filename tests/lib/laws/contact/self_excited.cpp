@@ -166,7 +166,7 @@ TEST_CASE("harmonic balance finds the periodic motion whether it is stable or no
   const auto model = std::make_shared<const model::Model>(model::build(pad(63)));
   const auto problem = std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1, 1);
   const Eigen::VectorXd p = hbm::parameters_at(*problem, frequency);
-  const auto u = hbm::steady_state(problem, p);
+  const auto u = hbm::steady_state(problem, p).u;
   REQUIRE(u);
   const time::MotionState found = time::state_of(*problem, *u, p);
   const time::EquationOfMotion equation = time::equation_of_motion(*model, p);

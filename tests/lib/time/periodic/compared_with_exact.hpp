@@ -24,7 +24,7 @@ inline Pair balanced(const scene::Scene& scene, double frequency) {
   const auto model = std::make_shared<const model::Model>(model::build(scene));
   Pair pair{std::make_shared<const hbm::HbmProblem>(model, model->harmonics, 1e-4, 25), {}, {}, {}};
   pair.p = hbm::parameters_at(*pair.problem, frequency * scene::to_rad_per_s(scene.frequency_unit));
-  const auto u = hbm::steady_state(pair.problem, pair.p);
+  const auto u = hbm::steady_state(pair.problem, pair.p).u;
   REQUIRE(u);
   pair.u = *u;
   pair.equation = time::equation_of_motion(*model, pair.p);

@@ -30,7 +30,7 @@ Place place(const scene::Scene& s, double omega, double nearby = 1e-3) {
   const Vector of_series = hbm::parameters_at(unscaled, omega);
   const auto series =
       std::make_shared<const hbm::HbmProblem>(unscaled, hbm::linear_response(unscaled, of_series).norm());
-  const auto u = hbm::steady_state(series, of_series);
+  const auto u = hbm::steady_state(series, of_series).u;
   REQUIRE(u);
   Place found;
   found.X = time::stacked(time::state_of(*series, *u, of_series));
