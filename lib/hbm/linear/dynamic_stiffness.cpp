@@ -9,6 +9,9 @@ namespace {
 // Linear coordinates of which the factors of a dense matrix take some tenths of a millisecond.
 constexpr Eigen::Index quick_factors = 100;
 
+// Whose rates as a matrix cost no more than those of two or three motions.
+constexpr int unknowns_with_rates = 8;
+
 Eigen::MatrixXd observed(const model::Model& model, const Eigen::MatrixXd& P) {
   Eigen::MatrixXd responses(P.cols(), 1 + static_cast<Eigen::Index>(model.others.size()));
   responses.col(0) = P.transpose() * model.response;
@@ -40,12 +43,14 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
   }
   for (int h = 0; h < harmonics.cosines(); ++h) {
     const int n = harmonics.cosine_order(h);
-    harmonics_.push_back({n, h, n > 0 ? harmonics.sine_index(n) : 0, {}, ComplexVector(r_ + l_)});
+    const bool driven = std::any_of(model.excitation.begin(), model.excitation.end(),
+                                    [&](const auto& each) { return harmonics.excited(each.harmonic) == n; });
+    harmonics_.push_back({n, h, n > 0 ? harmonics.sine_index(n) : 0, driven, {}, ComplexVector(r_ + l_)});
   }
 }
 
 bool DynamicStiffness::move_to(In p) {
-  if (p.head(last_p_.size()) == last_p_) return true;
+  if (is_at(p)) return true;
   last_p_.setConstant(std::nan(""));
   parts_.move_to(p);
   for (Harmonic& at : harmonics_) {
@@ -78,6 +83,11 @@ void DynamicStiffness::gather(const In& u, const Harmonic& at) const {
   for (int i = 0; i < r_; ++i) y_[i] = at.amplitude(u, i * size_);
 }
 
+bool DynamicStiffness::is_at_rest(const In& u, const Harmonic& at) const {
+  gather(u, at);
+  return !at.driven && (y_.head(r_).array() == 0.0).all();
+}
+
 void DynamicStiffness::expand(const In& u, const Harmonic& at, double force_factor) const {
   gather(u, at);
   at.condensed.expand(force_factor, y_);
@@ -90,7 +100,8 @@ void DynamicStiffness::differentiate(int k, const In& u, const Harmonic& at, dou
 }
 
 const ComplexMatrix* DynamicStiffness::rates(int k, Harmonic& at) const {
-  if (k != model::frequency || !parts_.modes() || !parts_.symmetric()) return nullptr;
+  if (k != model::frequency || r_ > unknowns_with_rates || !parts_.modes() || !parts_.symmetric())
+    return nullptr;
   if (!at.condensed.has_rates) modal_->differentiate(parts_, at.order, at.condensed);
   return &at.condensed.rates;
 }
@@ -102,7 +113,12 @@ void DynamicStiffness::scatter(const ComplexVector& q, const Harmonic& at, Out& 
 void DynamicStiffness::residual(In u, double force_factor, Out R) const {
   for (const Harmonic& at : harmonics_) {
     gather(u, at);
-    v_.head(r_).noalias() = at.condensed.Z.lazyProduct(y_.head(r_));
+    if ((y_.head(r_).array() == 0.0).all())
+      v_.head(r_).setZero();
+    else if (r_ <= unknowns_with_rates)
+      v_.head(r_).noalias() = at.condensed.Z.lazyProduct(y_.head(r_));
+    else
+      v_.head(r_).noalias() = at.condensed.Z * y_.head(r_);
     for (int i = 0; i < r_; ++i) at.put(v_[i] - force_factor * at.condensed.f[i], i * size_, R);
   }
 }
@@ -150,8 +166,9 @@ void DynamicStiffness::parameter_derivative(int k, In u, double force_factor, Ou
     return;
   }
   for (Harmonic& at : harmonics_) {
-    if (const ComplexMatrix* by = rates(k, at)) {
-      gather(u, at);
+    if (is_at_rest(u, at)) {
+      v_.head(r_).setZero();
+    } else if (const ComplexMatrix* by = rates(k, at)) {
       v_.head(r_) = force_factor * by->col(r_).head(r_);
       v_.head(r_).noalias() += by->topLeftCorner(r_, r_).lazyProduct(y_.head(r_));
     } else {
@@ -196,7 +213,7 @@ Eigen::MatrixXd DynamicStiffness::motion(const Eigen::MatrixXd& P, In u, double 
 
 void DynamicStiffness::response_transposed(In a, Out g, int place) const {
   g.tail(g.size() - r_ * size_).setZero();  // further unknowns, of elements, do not move the response
-  for (Harmonic& at : harmonics_) {  // L^T; with a real inner product the transpose is the conjugate
+  for (Harmonic& at : harmonics_) {         // L^T; with a real inner product the transpose is the conjugate
     const auto by = at.condensed.of_observations(responses_).row(place);
     for (int i = 0; i < r_; ++i) at.put(std::conj(by[i]) * at.amplitude(a, 0), i * size_, g);
   }
@@ -210,6 +227,10 @@ void DynamicStiffness::response_derivative(int k, In u, double force_factor, Out
     return;
   }
   for (Harmonic& at : harmonics_) {
+    if (is_at_rest(u, at)) {
+      at.put(0, 0, dx);
+      continue;
+    }
     Complex change = force_factor * parts_.base_derivative(k, at.order, ground);
     if (const ComplexMatrix* by = rates(k, at)) {
       change += force_factor * (*by)(r_ + place, r_);

@@ -27,6 +27,7 @@ class DynamicStiffness {
   /// False at an undamped resonance of the linear coordinates, a pole of the condensed stiffness, and after a
   /// end of Model::control.
   bool move_to(In p);
+  bool is_at(In p) const { return p.head(last_p_.size()) == last_p_; }
   double base_frequency() const { return parts_.base_frequency(); }  // rad/s, at the last place
 
   void residual(In u, double force_factor, Out R) const;                      // R = Z u - force_factor f
@@ -59,6 +60,7 @@ class DynamicStiffness {
   // One of the harmonics: where its coefficients stand among those of a coordinate, and its equation.
   struct Harmonic {
     int order, cosine, sine;  // the mean has no sine
+    bool driven;              // by a force of the scene, whatever its value
     Condensed condensed;
     ComplexVector force{};  // before condensation
 
@@ -71,11 +73,12 @@ class DynamicStiffness {
       if (order > 0) x[first + sine] = -amplitude.imag();
     }
   };
-  // The first two write y_, the third one also v_.
+  // They write y_, and the last one also v_.
   void gather(const In& u, const Harmonic& at) const;
+  bool is_at_rest(const In& u, const Harmonic& at) const;  // u is 0 there, and so is f for any parameters
   void expand(const In& u, const Harmonic& at, double force_factor) const;
   void differentiate(int k, const In& u, const Harmonic& at, double force_factor) const;
-  // By the frequency, of coordinates in modes: Condensed::rates. Null: not by these.
+  // By the frequency, of coordinates in modes and few unknowns: Condensed::rates. Null: not by these.
   const ComplexMatrix* rates(int k, Harmonic& at) const;
   bool condense(Harmonic& at);
   void scatter(const ComplexVector& q, const Harmonic& at, Out& x) const;

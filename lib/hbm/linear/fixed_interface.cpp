@@ -55,7 +55,7 @@ void ModalMatrix::add_product(std::complex<double> factor, const Eigen::VectorXc
   const Eigen::Index r = qq.rows(), l = ll.size();
   for (Eigen::Index i = 0; i < r; ++i) {
     std::complex<double> sum = 0;
-    for (Eigen::Index k = 0; k < r; ++k) sum += qq(i, k) * y[k];
+    for (Eigen::Index k = 0; k < r; ++k) sum += qq(k, i) * y[k];
     for (Eigen::Index j = 0; j < l; ++j) sum += lq(j, i) * y[r + j];
     v[i] += factor * sum;
   }
