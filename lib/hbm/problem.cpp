@@ -50,16 +50,27 @@ HbmEvaluator::HbmEvaluator(const HbmProblem& problem)
 }
 
 Evaluated HbmEvaluator::move_to(continuation::In u, continuation::In p, Needs needs) {
+  return move(u, p, needs, nullptr);
+}
+
+Evaluated HbmEvaluator::move_next_to(const HbmEvaluator& other, continuation::In u, continuation::In p,
+                                     Needs needs) {
+  return move(u, p, needs, other.stiffness().is_at(p) ? &other.stiffness() : nullptr);
+}
+
+Evaluated HbmEvaluator::move(continuation::In u, continuation::In p, Needs needs,
+                             const DynamicStiffness* lent) {
   const bool jacobian = needs == Needs::jacobian;
   if (!jacobian && !assembled_) assemble();
   if (!(p[model::frequency] > 0)) return Evaluated::outside_domain;
   if (!continuation::all_finite(u) || !continuation::all_finite(p)) return Evaluated::failed;
   u_ = u;
   force_factor_ = p[p.size() - 1];
-  if (!stiffness_.move_to(p)) return Evaluated::outside_domain;
+  lent_ = lent;
+  if (!lent_ && !stiffness_.move_to(p)) return Evaluated::outside_domain;
   assembled_ = !jacobian;
   R_.tail(R_.size() - displacements_).setZero();
-  stiffness_.residual(u_, force_factor_, R_);
+  stiffness().residual(u_, force_factor_, R_);
   move_all(u_, p, jacobian);
   for (const Part& part : parts_) part.map.add(part.element->force(), R_);
   return continuation::all_finite(R_) ? Evaluated::ok : Evaluated::failed;
@@ -118,19 +129,19 @@ void HbmEvaluator::assemble() const {
   auto& J = std::get<Eigen::MatrixXd>(jacobian_);
   J.setZero(R_.size(), R_.size());
   for (const Part& part : parts_) part.map.add(part.element->jacobian(), J);
-  stiffness_.add_to(J);
+  stiffness().add_to(J);
   assembled_ = true;
 }
 
 void HbmEvaluator::jacobian_of_order(int n, Eigen::MatrixXd& J_n) const {
   J_n.setZero();
   for (const Part& part : parts_) part.map.add_order(n, part.element->jacobian(), J_n);
-  stiffness_.add_order(n, J_n);
+  stiffness().add_order(n, J_n);
 }
 
 void HbmEvaluator::apply_jacobian(In x, continuation::Out y) const {
   y.tail(y.size() - displacements_).setZero();
-  stiffness_.residual(x, 0, y);
+  stiffness().residual(x, 0, y);
   for (const Part& part : parts_) {
     auto w = derivative_.head(part.map.size()), product = product_.head(part.map.size());
     part.map.gather(x, w);
@@ -142,11 +153,11 @@ void HbmEvaluator::apply_jacobian(In x, continuation::Out y) const {
 void HbmEvaluator::parameter_derivative(int k, continuation::Out dR) const {
   dR.tail(dR.size() - displacements_).setZero();
   if (k == static_cast<int>(model_->parameters.size())) {  // the excitation factor
-    stiffness_.force(dR);
+    stiffness().force(dR);
     dR = -dR;
     return;
   }
-  stiffness_.parameter_derivative(k, u_, force_factor_, dR);
+  stiffness().parameter_derivative(k, u_, force_factor_, dR);
   for (const Part& part : parts_) {
     auto dF = derivative_.head(part.map.size());
     if (k == model::frequency && part.rate_dependent) {

@@ -26,6 +26,10 @@ class HbmEvaluator final : public continuation::Evaluator {
   ~HbmEvaluator() override;
 
   continuation::Evaluated move_to(continuation::In u, continuation::In p, continuation::Needs needs) override;
+  /// The same with the linear part of another evaluator of these equations that is at these parameters, if it
+  /// is; it stays there until the next move.
+  continuation::Evaluated move_next_to(const HbmEvaluator& other, continuation::In u, continuation::In p,
+                                       continuation::Needs needs);
   const Vector& residual() const override { return R_; }
   const continuation::Jacobian& jacobian() const override;  // put together on the first call
   void parameter_derivative(int k, continuation::Out dR) const override;
@@ -42,7 +46,7 @@ class HbmEvaluator final : public continuation::Evaluator {
   void apply_jacobian(In x, continuation::Out y) const;
 
   // Data for observables, at the last point.
-  const DynamicStiffness& stiffness() const { return stiffness_; }
+  const DynamicStiffness& stiffness() const { return lent_ ? *lent_ : stiffness_; }
   double force_factor() const { return force_factor_; }
   std::size_t element_count() const { return parts_.size(); }
   const elements::Element& element(std::size_t e) const { return *parts_[e].element; }
@@ -62,6 +66,8 @@ class HbmEvaluator final : public continuation::Evaluator {
     std::uint64_t tested = 0;  // its piece in tested_piece_
   };
 
+  continuation::Evaluated move(continuation::In u, continuation::In p, continuation::Needs needs,
+                               const DynamicStiffness* lent);
   void move(Part& part, const continuation::In& u, const continuation::In& p, bool jacobian);
   void move_all(const continuation::In& u, const continuation::In& p, bool jacobian);
   void assemble() const;
@@ -69,6 +75,7 @@ class HbmEvaluator final : public continuation::Evaluator {
   std::shared_ptr<const model::Model> model_;
   Eigen::Index displacements_;  // before the auxiliary unknowns
   DynamicStiffness stiffness_;
+  const DynamicStiffness* lent_ = nullptr;  // in place of it, by move_next_to()
   std::vector<Part> parts_;
   std::shared_ptr<control::Workers> workers_;  // null: one thread
   double seconds_[2] = {0, 0};  // of all elements in one thread: without and with their Jacobians

@@ -114,8 +114,8 @@ bool WideEquations::look_nearby(In wide, In p) {
 
 const hbm::HbmEvaluator* WideEquations::look_at(In wide, In p) {
   if (!nearby_) nearby_ = problem_.hbm_evaluator();
-  const bool done = nearby_->move_to(wide, p, continuation::Needs::residual) == continuation::Evaluated::ok;
-  return done ? nearby_.get() : nullptr;
+  const auto done = nearby_->move_next_to(*evaluator_, wide, p, continuation::Needs::residual);
+  return done == continuation::Evaluated::ok ? nearby_.get() : nullptr;
 }
 
 void WideEquations::apply(const hbm::HbmEvaluator& at, const Change& change, int q, Vector& y) {

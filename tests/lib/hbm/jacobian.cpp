@@ -147,3 +147,22 @@ TEST_CASE("the Jacobian of one order is made of the entries of the whole one") {
               1e-13 * J.cwiseAbs().maxCoeff());
   }
 }
+
+TEST_CASE(
+    "with the linear part of another evaluator the equations are the same, at its parameters and others") {
+  const auto model = std::make_shared<const model::Model>(model::build(scenes::chain(3, false)));
+  const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
+  const auto other = problem.hbm_evaluator(), next = problem.hbm_evaluator(), alone = problem.hbm_evaluator();
+  const Vector p = hbm::parameters_at(problem, 1.1), moved = hbm::parameters_at(problem, 1.2);
+  const Vector u = Vector::Random(problem.size()), v = Vector::Random(problem.size());
+  REQUIRE(other->move_to(u, p, continuation::Needs::residual) == continuation::Evaluated::ok);
+  for (const Vector& at : {p, moved, p}) {
+    REQUIRE(next->move_next_to(*other, v, at, continuation::Needs::jacobian) == continuation::Evaluated::ok);
+    REQUIRE(alone->move_to(v, at, continuation::Needs::jacobian) == continuation::Evaluated::ok);
+    CHECK((next->residual() - alone->residual()).norm() == 0);
+    CHECK(
+        (std::get<Eigen::MatrixXd>(next->jacobian()) - std::get<Eigen::MatrixXd>(alone->jacobian())).norm() ==
+        0);
+    CHECK((&next->stiffness() == &other->stiffness()) == (at == p));
+  }
+}
