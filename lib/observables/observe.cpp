@@ -16,6 +16,9 @@ namespace {
 // Of the motion of the elements: a response below is their rounding, as where symmetry holds it at 0.
 constexpr double at_rest = 1e-13;
 
+// Up to so many the truncation estimate is cheap.
+constexpr int few_blocks = 16;
+
 const hbm::HbmEvaluator& hbm_evaluator_of(const continuation::Accepted& now) {
   return static_cast<const hbm::HbmEvaluator&>(now.at);
 }
@@ -168,18 +171,39 @@ void Observer::estimate_stick(const continuation::Accepted& now, ResponsePoint& 
   }
 }
 
-ResponsePoint Observer::observe(const continuation::Accepted& now, PointCondition held, bool maxima) {
-  const auto& at = hbm_evaluator_of(now);
-  ResponsePoint point = motion(at, now.u, now.p);
-  const Extreme at_most = last_;
-  point.phase = phase(now.p, x_);
+void Observer::estimate_truncation(const continuation::Accepted& now, PointCondition held,
+                                   ResponsePoint& point) {
   if (!truncation_) truncation_ = std::make_unique<Truncation>(*problem_, free_, now.p);
-  const TruncationEstimate truncation = truncation_->estimate(now, at_most, held);
+  const TruncationEstimate truncation = truncation_->estimate(now, last_, held);
   point.truncation_estimate = truncation.amplitude;
   point.truncation_change = truncation.change;
   point.location_estimate = truncation.location;
   point.location_change = truncation.location_change;
   point.truncation_flagged = truncation.flagged || !point.stops.empty();
+}
+
+ResponsePoint Observer::observe(const continuation::Accepted& now, PointCondition held, bool maxima) {
+  spaced_.restart();
+  return observe(now, held, maxima, true);
+}
+
+void Observer::observe_next(const continuation::Accepted& now, std::vector<ResponsePoint>& points) {
+  const bool spaced = problem_->blocks() > few_blocks && !stability_ && !problem_->model().settings.chosen;
+  const bool estimated = !spaced || spaced_.is_due(now.arclength, now.parameter);
+  ResponsePoint point = observe(now, PointCondition::parameter, false, estimated);
+  if (!estimated)
+    spaced_.pass(now.arclength, point);
+  else if (spaced)
+    spaced_.take(now.arclength, now.parameter, point, points);
+  points.push_back(std::move(point));
+}
+
+ResponsePoint Observer::observe(const continuation::Accepted& now, PointCondition held, bool maxima,
+                                bool estimated) {
+  const auto& at = hbm_evaluator_of(now);
+  ResponsePoint point = motion(at, now.u, now.p);
+  point.phase = phase(now.p, x_);
+  if (estimated) estimate_truncation(now, held, point);
   if (stability_) add_stability(now, point);
   point.energy_input = input_energy(*problem_, at, now.u);
   point.forces = force_components(*problem_, at, x_);

@@ -34,6 +34,9 @@ class Observer {
     return observe(now, held, held != PointCondition::parameter);
   }
   ResponsePoint observe(const continuation::Accepted& now, PointCondition held, bool maxima);
+  /// The same of the next point of a branch, after the last ones, whose truncation estimates may become
+  /// better known by it (SpacedEstimates).
+  void observe_next(const continuation::Accepted& now, std::vector<ResponsePoint>& points);
 
   /// From now on, points have their stability, where it is known.
   void watch_stability(const StabilityRequest& request = true) {
@@ -69,6 +72,8 @@ class Observer {
   double phase(continuation::In p, continuation::In x) const;
   void add_named_responses(const hbm::HbmEvaluator& at, continuation::In u, continuation::In p,
                            ResponsePoint& point);
+  ResponsePoint observe(const continuation::Accepted& now, PointCondition held, bool maxima, bool estimated);
+  void estimate_truncation(const continuation::Accepted& now, PointCondition held, ResponsePoint& point);
   void add_stability(const continuation::Accepted& now, ResponsePoint& point);
   void estimate_stick(const continuation::Accepted& now, ResponsePoint& point);
 
@@ -79,7 +84,8 @@ class Observer {
   Eigen::MatrixXd named_motions_;  // coefficients of each, at the last place
   Stops stops_;
   std::unique_ptr<Truncation> truncation_;  // created at the first observe()
-  std::unique_ptr<Maxima> maxima_;          // created at the first request
+  SpacedEstimates spaced_;
+  std::unique_ptr<Maxima> maxima_;  // created at the first request
   std::optional<StabilityAnalysis> stability_;
   continuation::Vector stable_u_, stable_p_;  // the place of its last call
   bool stability_known_ = false;

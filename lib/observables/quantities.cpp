@@ -210,7 +210,8 @@ constexpr ResponseQuantity of_response[] = {
     {"truncation_estimate", "m",
      "estimated effect of the neglected harmonics on the amplitude at this frequency (or parameter value); "
      "at an event, on the amplitude of the event, which may move; null at a branch point of the same "
-     "harmonics, where it is not known",
+     "harmonics, where it is not known; between events of structures with more than 16 nonlinear "
+     "coordinates and a fixed order, that of the line between points at which it is computed (section 7.5)",
      bounded<&Point::truncation_estimate>},
     {"truncation_flagged", "", "the estimate may be too low",
      [](const Point& point) { return point.truncation_flagged; }},

@@ -69,6 +69,7 @@ struct Harmonics {
   /// If not 0, studies choose the order by it, up to `order`: of amplitudes, relative to the largest one
   /// (studies/order_selection.hpp). Functions that run no study use `order`.
   double accuracy = 0;
+  bool chosen = false;  // the order is one that a study tries by its accuracy: all points are estimated
   friend bool operator==(const Harmonics&, const Harmonics&) = default;
 };
 

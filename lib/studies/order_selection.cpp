@@ -113,6 +113,7 @@ void set_order_of_starts(scene::Scene& scene) {
 
 void OrderSelection::set_order(scene::Scene& scene) const {
   scene.harmonics.accuracy = 0;
+  scene.harmonics.chosen = true;
   scene.harmonics.order = order_;
   const double per_period = std::pow(static_cast<double>(order_) / (period_ * lowest_order), samples_rate);
   const double samples =

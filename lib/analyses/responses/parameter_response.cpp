@@ -177,18 +177,18 @@ class Traces {
     std::vector<std::pair<double, double>> course;  // arclength, amplitude
     std::vector<double> at;                         // arclength of the events
     const auto record = [&](const Accepted& now, const continuation::Event* event) {
-      ResponsePoint point =
-          observer->observe(now, event ? held_by(*event) : PointCondition::parameter, event != nullptr);
-      point.over = now.parameter;
       if (event) {
+        ResponsePoint point = observer->observe(now, held_by(*event), true);
+        point.over = now.parameter;
         at.push_back(now.arclength);
         result.events.push_back(
             {event->monitor, event->nonsmooth, event->located, std::move(point), event->after});
         set_apart(event->monitor, result.events.back().point);
         return true;
       }
-      course.emplace_back(now.arclength, point.amplitude);
-      result.points.push_back(std::move(point));
+      observer->observe_next(now, result.points);
+      result.points.back().over = now.parameter;
+      course.emplace_back(now.arclength, result.points.back().amplitude);
       progress_.points = static_cast<long>(result.points.size());
       progress_.share_done = way_.share(now.parameter);
       control_.report(progress_);
