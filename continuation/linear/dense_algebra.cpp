@@ -3,7 +3,52 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include <limits>
+#include <utility>
+
+extern "C" {
+// NOLINTBEGIN(readability-identifier-naming)
+void dgetrf_(const int* m, const int* n, double* A, const int* lda, int* pivots, int* info);
+void zgetrf_(const int* m, const int* n, std::complex<double>* A, const int* lda, int* pivots, int* info);
+void dtrsm_(const char* side, const char* part, const char* transposed, const char* diagonal, const int* m,
+            const int* n, const double* alpha, const double* A, const int* lda, double* B, const int* ldb);
+void ztrsm_(const char* side, const char* part, const char* transposed, const char* diagonal, const int* m,
+            const int* n, const std::complex<double>* alpha, const std::complex<double>* A, const int* lda,
+            std::complex<double>* B, const int* ldb);
+// NOLINTEND(readability-identifier-naming)
+}
+
 namespace arcslip::continuation {
+namespace lapack {
+namespace {
+
+// From here on LAPACK is faster than Eigen: with SSE2 1.6 times at 100, 2.0 at 160, 2.8 at 840 unknowns.
+constexpr Eigen::Index smallest_lu = 100;
+
+// P A = L U in place, rows i and pivots[i] - 1 exchanged one after the other. A zero pivot stays in U.
+void factorize(int n, double* A, int* pivots) {
+  int info = 0;
+  dgetrf_(&n, &n, A, &n, pivots, &info);
+}
+void factorize(int n, std::complex<double>* A, int* pivots) {
+  int info = 0;
+  zgetrf_(&n, &n, A, &n, pivots, &info);
+}
+
+// T^-1 B in place, T the lower triangle of A with a diagonal of 1 ("L", "U"), or the upper one ("U", "N").
+void solve_triangle(const char* part, const char* diagonal, int n, int columns, const double* A, double* B) {
+  const double one = 1;
+  dtrsm_("L", part, "N", diagonal, &n, &columns, &one, A, &n, B, &n);
+}
+void solve_triangle(const char* part, const char* diagonal, int n, int columns, const std::complex<double>* A,
+                    std::complex<double>* B) {
+  const std::complex<double> one = 1;
+  ztrsm_("L", part, "N", diagonal, &n, &columns, &one, A, &n, B, &n);
+}
+
+}  // namespace
+}  // namespace lapack
+
 namespace {
 
 // A single column uses Eigen's matrix-vector product, like a vector.
@@ -17,12 +62,101 @@ void solve_triangular(const Triangular& T, Matrix& B) {
   }
 }
 
+// What Eigen's estimate of the norm of an inverse needs (Higham, ACM Trans. Math. Softw. 14, 1988).
+template <class Decomposition, class Vector>
+struct Inverse {
+  using Scalar = typename Vector::Scalar;
+  using RealScalar = double;
+  using MatrixType = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  const Decomposition& lu;
+  bool conjugate = false;
+  Eigen::Index rows() const { return lu.factors.rows(); }
+  Eigen::Index cols() const { return lu.factors.cols(); }
+  Inverse adjoint() const { return {lu, !conjugate}; }
+  Vector solve(const Vector& b) const {
+    Vector x(b.size());
+    if (conjugate) {
+      lu.solve_transposed(b.conjugate(), x);
+      x = x.conjugate().eval();
+    } else {
+      lu.solve(b, x);
+    }
+    return x;
+  }
+};
+
 }  // namespace
 
+// By Eigen, or from lapack::smallest_lu on by LAPACK.
 template <class Scalar>
 struct LU<Scalar>::Decomposition {
-  explicit Decomposition(Eigen::Index n) : of(n) {}
+  explicit Decomposition(Eigen::Index n) : of(n < lapack::smallest_lu ? n : 0) {}
+
+  void factorize(const Matrix& A) {
+    large = A.rows() >= lapack::smallest_lu;
+    if (!large) {
+      of.compute(A);
+      return;
+    }
+    const Eigen::Index n = A.rows();
+    factors = A;
+    exchanges.resize(n);
+    // A kernel may pass over products with 0, and a NaN would be lost.
+    if (!A.allFinite()) {
+      factors.setConstant(std::numeric_limits<double>::quiet_NaN());
+      norm = std::numeric_limits<double>::quiet_NaN();
+      for (Eigen::Index i = 0; i < n; ++i) exchanges[i] = static_cast<int>(i) + 1;
+    } else {
+      norm = A.cwiseAbs().colwise().sum().maxCoeff();
+      lapack::factorize(static_cast<int>(n), factors.data(), exchanges.data());
+    }
+    take_order();
+  }
+
+  void take_order() {
+    const Eigen::Index n = exchanges.size();
+    order.setLinSpaced(n, 0, static_cast<int>(n) - 1);
+    sign = 1;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Eigen::Index other = exchanges[i] - 1;
+      if (other == i) continue;
+      std::swap(order[i], order[other]);
+      sign = -sign;
+    }
+    places.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) places[order[i]] = static_cast<int>(i);
+  }
+
+  void solve(const Eigen::Ref<const Vector>& b, Eigen::Ref<Vector> x) const {
+    for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = b[order[i]];
+    factors.template triangularView<Eigen::UnitLower>().solveInPlace(x);
+    factors.template triangularView<Eigen::Upper>().solveInPlace(x);
+  }
+
+  void solve_transposed(const Eigen::Ref<const Vector>& b, Eigen::Ref<Vector> x) const {
+    x = b;
+    factors.template triangularView<Eigen::Upper>().transpose().solveInPlace(x);
+    factors.template triangularView<Eigen::UnitLower>().transpose().solveInPlace(x);
+    for (Eigen::Index i = x.size(); i-- > 0;) std::swap(x[i], x[exchanges[i] - 1]);
+  }
+
+  void solve_columns(const Matrix& B, Matrix& X) const {
+    X.resize(B.rows(), B.cols());
+    for (Eigen::Index i = 0; i < B.rows(); ++i) X.row(i) = B.row(order[i]);
+    const int n = static_cast<int>(B.rows()), columns = static_cast<int>(B.cols());
+    lapack::solve_triangle("L", "U", n, columns, factors.data(), X.data());
+    lapack::solve_triangle("U", "N", n, columns, factors.data(), X.data());
+  }
+
+  double reciprocal_condition() const {
+    return Eigen::internal::rcond_estimate_helper(norm, Inverse<Decomposition, Vector>{*this});
+  }
+
   Eigen::PartialPivLU<Matrix> of;
+  bool large = false;
+  Matrix factors;
+  Eigen::VectorXi exchanges, order, places;  // row i of L U is row order[i] of A
+  double sign = 1, norm = 0;
 };
 
 template <class Scalar>
@@ -36,52 +170,61 @@ LU<Scalar>& LU<Scalar>::operator=(LU&&) noexcept = default;
 
 template <class Scalar>
 void LU<Scalar>::factorize(const Matrix& A) {
-  lu_->of.compute(A);
+  lu_->factorize(A);
 }
 
 template <class Scalar>
 void LU<Scalar>::solve(const Eigen::Ref<const Vector>& b, Eigen::Ref<Vector> x) const {
-  x = lu_->of.solve(b);
+  if (lu_->large)
+    lu_->solve(b, x);
+  else
+    x = lu_->of.solve(b);
 }
 
 template <class Scalar>
 void LU<Scalar>::solve_transposed(const Eigen::Ref<const Vector>& b, Eigen::Ref<Vector> x) const {
-  x = lu_->of.transpose().solve(b);
+  if (lu_->large)
+    lu_->solve_transposed(b, x);
+  else
+    x = lu_->of.transpose().solve(b);
 }
 
 template <class Scalar>
 void LU<Scalar>::solve_columns(const Matrix& B, Matrix& X) const {
-  X = lu_->of.solve(B);
+  if (lu_->large)
+    lu_->solve_columns(B, X);
+  else
+    X = lu_->of.solve(B);
 }
 
 template <class Scalar>
 Scalar LU<Scalar>::pivot(Eigen::Index i) const {
-  return lu_->of.matrixLU()(i, i);
+  return factors()(i, i);
 }
 
 template <class Scalar>
 double LU<Scalar>::permutation_sign() const {
-  return static_cast<double>(lu_->of.permutationP().determinant());
+  return lu_->large ? lu_->sign : static_cast<double>(lu_->of.permutationP().determinant());
 }
 
 template <class Scalar>
 Scalar LU<Scalar>::determinant() const {
-  return lu_->of.determinant();
+  return lu_->large ? lu_->sign * lu_->factors.diagonal().prod() : lu_->of.determinant();
 }
 
 template <class Scalar>
 double LU<Scalar>::reciprocal_condition() const {
-  return lu_->of.rcond();
+  return lu_->large ? lu_->reciprocal_condition() : lu_->of.rcond();
 }
 
 template <class Scalar>
 auto LU<Scalar>::factors() const -> const Matrix& {
-  return lu_->of.matrixLU();
+  return lu_->large ? lu_->factors : lu_->of.matrixLU();
 }
 
 template <class Scalar>
 const Eigen::VectorXi& LU<Scalar>::row_places() const {
-  return lu_->of.permutationP().indices();
+  return lu_->large ? lu_->places : lu_->of.permutationP().indices();
 }
 
 template class LU<double>;

@@ -4,6 +4,9 @@
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/finite.hpp>
 
+#include <Eigen/LU>
+
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -21,6 +24,12 @@ Matrix numbers(Index rows, Index columns, double phase = 0) {
     return std::sin(1.3 * static_cast<double>(i * i) + 2.1 * static_cast<double>(j) +
                     0.7 * static_cast<double>(i * j) + phase);
   });
+}
+
+Matrix regular(Index n) {
+  Matrix A = numbers(n, n);
+  for (Index i = 0; i < n; ++i) A(i, (7 * i + 3) % n) += 30;
+  return A;
 }
 
 // K of a chain of n masses between two walls: 2 - 2 cos(k pi / (n + 1)).
@@ -70,6 +79,99 @@ TEST_CASE("LU of complex matrices") {
   lu.solve_columns(B, X);
   CHECK((A * X - B).norm() < rounding * A.norm() * X.norm());
   CHECK((A * solve_complex(A, B) - B).norm() < rounding * A.norm() * X.norm());
+}
+
+TEST_CASE("LU of 99 unknowns is Eigen's to the bit, and from 100 on sign and condition are Eigen's") {
+  for (Index n : {99, 100, 137, 240})
+    for (double decades : {0.0, 12.0}) {  // of the factors of rows and columns
+      Matrix A = regular(n);
+      for (Index i = 0; i < n; ++i) {
+        A.row(i) *= std::pow(10, decades * std::sin(3.1 * static_cast<double>(i)));
+        A.col(i) *= std::pow(10, decades * std::cos(1.7 * static_cast<double>(i)));
+      }
+      const Eigen::PartialPivLU<Matrix> eigen(A);
+      LU<double> lu(n);
+      lu.factorize(A);
+      if (n == 99) CHECK(lu.factors() == eigen.matrixLU());
+      const Matrix L = lu.factors().triangularView<Eigen::UnitLower>();
+      const Matrix U = lu.factors().triangularView<Eigen::Upper>();
+      const double n_eps = static_cast<double>(n) * 2.3e-16;
+      const Matrix bound = n_eps * L.cwiseAbs() * U.cwiseAbs(), product = L * U;
+      double excess = -1;
+      for (Index i = 0; i < n; ++i)
+        excess = std::max(
+            excess, ((product.row(lu.row_places()[i]) - A.row(i)).cwiseAbs() - bound.row(lu.row_places()[i]))
+                        .maxCoeff());
+      CHECK(excess <= 0);
+      CHECK(L.cwiseAbs().maxCoeff() <= 1);
+
+      int negative = 0, of_eigen = 0;
+      for (Index i = 0; i < n; ++i) {
+        negative += lu.pivot(i) < 0;
+        of_eigen += eigen.matrixLU()(i, i) < 0;
+      }
+      CHECK(lu.permutation_sign() * (negative % 2 ? -1 : 1) ==
+            static_cast<double>(eigen.permutationP().determinant()) * (of_eigen % 2 ? -1 : 1));
+      const double condition = lu.reciprocal_condition(), wanted = eigen.rcond();
+      CHECK(std::abs(condition - wanted) <= (decades > 0 ? 0.5 : 1e-9) * wanted);
+
+      // Backward errors, by rows of |A| |x| (Higham, Accuracy and Stability, theorem 9.4).
+      const Vector b = A * numbers(n, 1);
+      Vector x(n), y(n);
+      lu.solve(b, x);
+      lu.solve_transposed(b, y);
+      Matrix X;
+      lu.solve_columns(A * numbers(n, 3), X);
+      Vector by_rows(n);
+      for (Index i = 0; i < n; ++i) by_rows[lu.row_places()[i]] = (A.row(i) * x - b.row(i)).cwiseAbs()[0];
+      CHECK((by_rows - 3 * bound * x.cwiseAbs()).maxCoeff() <= 0);
+      Vector y_in_order(n);
+      for (Index i = 0; i < n; ++i) y_in_order[lu.row_places()[i]] = std::abs(y[i]);
+      const Vector allowed = 3 * bound.transpose() * y_in_order;
+      CHECK(((A.transpose() * y - b).cwiseAbs() - allowed).maxCoeff() <= 0);
+      if (decades == 0) CHECK((X - numbers(n, 3)).norm() < 1e-9);
+    }
+}
+
+TEST_CASE("LU of 100 unknowns and more knows singular and non-finite matrices by their pivots") {
+  const Index n = 128;
+  LU<double> lu(n);
+  Matrix A = numbers(n, n);
+  A.col(77).setZero();
+  lu.factorize(A);
+  CHECK(lu.pivot(77) == 0);
+  CHECK_FALSE(lu.reciprocal_condition() > 0);
+  A = numbers(n, n);
+  A(0, n - 1) = std::numeric_limits<double>::quiet_NaN();
+  lu.factorize(A);
+  CHECK(std::isnan(lu.pivot(n - 1)));
+  // Below the smallest normal number, too: 1 / pivot is not finite.
+  A = Matrix::Zero(n, n);
+  for (Index i = 0; i < n; ++i) A(i, (i + 1) % n) = 1e-310;
+  A(5, 9) = 5e-311;
+  lu.factorize(A);
+  CHECK(lu.factors().cwiseAbs().maxCoeff() <= 1);
+  CHECK(lu.pivot(n - 1) != 0);
+  CHECK(lu.permutation_sign() == -1);
+}
+
+TEST_CASE("LU of 100 complex unknowns and more solves with the matrix and its transpose, not its adjoint") {
+  const Index n = 110;
+  Eigen::MatrixXcd A(n, n);
+  A.real() = regular(n);
+  A.imag() = numbers(n, n, 1);
+  Eigen::VectorXcd b = A.col(3) * std::complex(0.5, 2.0), x(n), y(n);
+  LU<std::complex<double>> lu(n);
+  lu.factorize(A);
+  lu.solve(b, x);
+  lu.solve_transposed(b, y);
+  CHECK((A * x - b).norm() < rounding * A.norm() * x.norm());
+  CHECK((A.transpose() * y - b).norm() < rounding * A.norm() * y.norm());
+  Eigen::MatrixXcd X;
+  lu.solve_columns(A, X);
+  CHECK((X - Eigen::MatrixXcd::Identity(n, n)).norm() < 1e-9);
+  const double wanted = Eigen::PartialPivLU<Eigen::MatrixXcd>(A).rcond();
+  CHECK(std::abs(lu.reciprocal_condition() - wanted) <= 1e-9 * wanted);
 }
 
 TEST_CASE("a singular matrix is solved where a solution exists") {
