@@ -124,7 +124,7 @@ std::optional<BranchStop> limit_reached(const Options& options, const control::C
 namespace {
 
 constexpr int home_bisections = 30;
-constexpr double near_step = 0.05;     // of a step: a start this close may lie on it
+constexpr double closing_distance = 0.05;  // of a step: a start this close may lie on it
 constexpr double rounding_share = 10;  // of the corrector's: closer solutions are the same
 
 }  // namespace
@@ -134,7 +134,7 @@ bool may_close(const Corrector& in, const CurvePoint& start, const CurvePoint& f
   if (from.arclength == 0) return false;
   const auto ahead = [&](const Vector& place) { return in.dot(start.v - place, start.tangent); };
   double lower = 0, upper = 1, a = ahead(from.v), b = ahead(to.v);
-  if (!(a > 0 && b <= near_step * length) || distance(in, from.v, start.v) > (1 + near_step) * length)
+  if (!(a > 0 && b <= closing_distance * length) || distance(in, from.v, start.v) > (1 + closing_distance) * length)
     return false;
   if (in.dot(start.tangent, to.tangent) < std::cos(largest_angle)) return false;
   v = to.v;
@@ -145,7 +145,7 @@ bool may_close(const Corrector& in, const CurvePoint& start, const CurvePoint& f
     (at > 0 ? lower : upper) = middle;
     (at > 0 ? a : b) = at;
   }
-  return distance(in, v, start.v) <= near_step * length;
+  return distance(in, v, start.v) <= closing_distance * length;
 }
 
 double closing_tolerance(const Corrector& in, const CurvePoint& start, double rounding_level) {
