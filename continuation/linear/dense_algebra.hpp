@@ -49,6 +49,9 @@ extern template class LU<std::complex<double>>;
 Matrix solve(const Matrix& A, const Matrix& B);
 Eigen::MatrixXcd solve_complex(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
 
+/// C = A^T B by BLAS. No allocation after the first matrices of a size.
+void transposed_product(const Matrix& A, const Matrix& B, Matrix& C);
+
 /// A solution of A x = b by LU with full pivoting, where A may be singular.
 Vector solve_any(const Matrix& A, const Vector& b);
 

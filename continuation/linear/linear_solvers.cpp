@@ -1,7 +1,6 @@
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 
-#include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/continuation/linear/small_lu.hpp>
+#include <arcslip/continuation/linear/lu_in_place.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -35,8 +34,8 @@ class DenseLU final : public LinearSolver {
     const Eigen::Index n = J->rows(), m = borders.width();
     if (matrix_.rows() != n + m) {
       matrix_.resize(n + m, n + m);
-      if (n + m > largest_small_lu) lu_ = LU<double>(n + m);
       order_.resize(n + m);
+      left_.resize(n + m);
       work_.resize(n + m);
     }
     balance(*J, borders);
@@ -44,13 +43,7 @@ class DenseLU final : public LinearSolver {
     matrix_.topRightCorner(n, m) = borders.columns * columns_.asDiagonal();
     matrix_.bottomLeftCorner(m, n) = rows_.asDiagonal() * borders.rows.transpose();
     matrix_.bottomRightCorner(m, m) = rows_.asDiagonal() * borders.corner * columns_.asDiagonal();
-    if (n + m <= largest_small_lu) {
-      factorize_small(matrix_, order_);
-    } else {
-      lu_.factorize(matrix_);
-      matrix_ = lu_.factors();
-      for (Eigen::Index i = 0; i < n + m; ++i) order_[lu_.row_places()[i]] = static_cast<int>(i);
-    }
+    factorize_in_place(matrix_, order_, left_);
     double sign = sign_of_permutation();
     const auto pivots = matrix_.diagonal();
     for (Eigen::Index i = 0; i < n + m; ++i) {
@@ -124,7 +117,6 @@ class DenseLU final : public LinearSolver {
   }
 
   Matrix matrix_;          // L and U
-  LU<double> lu_;          // of large matrices
   Eigen::VectorXi order_;  // row i of L U is equation order_[i]
   Eigen::VectorXi left_;
   mutable Vector work_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace arcslip::hbm {
 namespace {
@@ -9,8 +10,8 @@ namespace {
 // Linear coordinates of which the factors of a dense matrix take some tenths of a millisecond.
 constexpr Eigen::Index quick_factors = 100;
 
-// Whose rates as a matrix cost no more than those of two or three motions.
-constexpr int unknowns_with_rates = 8;
+// Up to here matrices cost no more than products with two or three motions.
+constexpr int few_unknowns = 8;
 
 Eigen::MatrixXd observed(const model::Model& model, const Eigen::MatrixXd& P) {
   Eigen::MatrixXd responses(P.cols(), 1 + static_cast<Eigen::Index>(model.others.size()));
@@ -37,6 +38,7 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
       y_(r_ + l_),
       v_(r_ + l_) {
   if (coordinates.modes) modal_.emplace(*coordinates.modes, responses_);
+  if (coordinates.modes && r_ > few_unknowns) operator_.emplace(parts_.products(), responses_);
   if (model.absolute) {
     ground_.front() = model.response.sparseView();
     std::copy(model.others.begin(), model.others.end(), ground_.begin() + 1);
@@ -53,15 +55,37 @@ bool DynamicStiffness::move_to(In p) {
   if (is_at(p)) return true;
   last_p_.setConstant(std::nan(""));
   parts_.move_to(p);
+  const bool used_operator = std::exchange(uses_operator_, operator_ && parts_.purely_modal());
+  const bool same = uses_operator_ == used_operator && !parts_.force_changed() &&
+                    std::exchange(values_, -1) == parts_.changes_of_values();
   for (Harmonic& at : harmonics_) {
     if (!parts_.force_changed()) break;
     parts_.force(at.order, at.force);
     at.condensed.forced = (at.force.array() != 0.0).any();
   }
-  for (Harmonic& at : harmonics_)
-    if ((takes_long_ && !control_.keep_going()) || !condense(at)) return false;
+  for (Harmonic& at : harmonics_) {
+    if (takes_long_ && !control_.keep_going()) return false;
+    const bool is_same = uses_operator_ && same && at.order == 0;  // the mean, at each frequency
+    if (!is_same && !prepare(at)) return false;
+  }
+  values_ = parts_.changes_of_values();
   last_p_ = p.head(last_p_.size());
   return true;
+}
+
+bool DynamicStiffness::prepare(Harmonic& at) {
+  if (!uses_operator_) return condense(at);
+  at.is_formed = false;
+  const double s = at.order * base_frequency();
+  return operator_->move_to(parts_.factors(s), s, at.modal);
+}
+
+const Condensed& DynamicStiffness::formed(Harmonic& at) const {
+  if (uses_operator_ && !at.is_formed) {
+    operator_->form(at.modal, at.force, at.condensed.Z, at.condensed.f);
+    at.is_formed = true;
+  }
+  return at.condensed;
 }
 
 bool DynamicStiffness::condense(Harmonic& at) {
@@ -90,7 +114,27 @@ bool DynamicStiffness::is_at_rest(const In& u, const Harmonic& at) const {
 
 void DynamicStiffness::expand(const In& u, const Harmonic& at, double force_factor) const {
   gather(u, at);
-  at.condensed.expand(force_factor, y_);
+  if (uses_operator_)
+    operator_->expand(at.modal, at.force, force_factor, y_);
+  else
+    at.condensed.expand(force_factor, y_);
+}
+
+void DynamicStiffness::project(const Harmonic& at) const {
+  if (uses_operator_)
+    operator_->project(at.modal, v_);
+  else
+    at.condensed.project(v_);
+}
+
+const ComplexMatrix& DynamicStiffness::observations(Harmonic& at) const {
+  return uses_operator_ ? operator_->observations(at.modal, at.force)
+                        : at.condensed.of_observations(responses_);
+}
+
+Complex DynamicStiffness::observed_change(const Harmonic& at, int place) const {
+  return uses_operator_ ? operator_->observed_change(at.modal, v_, place)
+                        : at.condensed.observed_change(v_, place);
 }
 
 // dZ/dp_k y - force_factor df/dp_k, before condensation.
@@ -100,8 +144,7 @@ void DynamicStiffness::differentiate(int k, const In& u, const Harmonic& at, dou
 }
 
 const ComplexMatrix* DynamicStiffness::rates(int k, Harmonic& at) const {
-  if (k != model::frequency || r_ > unknowns_with_rates || !parts_.modes() || !parts_.symmetric())
-    return nullptr;
+  if (k != model::frequency || r_ > few_unknowns || !parts_.modes() || !parts_.symmetric()) return nullptr;
   if (!at.condensed.has_rates) modal_->differentiate(parts_, at.order, at.condensed);
   return &at.condensed.rates;
 }
@@ -112,10 +155,20 @@ void DynamicStiffness::scatter(const ComplexVector& q, const Harmonic& at, Out& 
 
 void DynamicStiffness::residual(In u, double force_factor, Out R) const {
   for (const Harmonic& at : harmonics_) {
+    if (uses_operator_) {
+      if (is_at_rest(u, at)) {
+        v_.head(r_).setZero();
+      } else {
+        expand(u, at, force_factor);
+        operator_->residual(at.modal, at.force, force_factor, y_, v_);
+      }
+      scatter(v_, at, R);
+      continue;
+    }
     gather(u, at);
     if ((y_.head(r_).array() == 0.0).all())
       v_.head(r_).setZero();
-    else if (r_ <= unknowns_with_rates)
+    else if (r_ <= few_unknowns)
       v_.head(r_).noalias() = at.condensed.Z.lazyProduct(y_.head(r_));
     else
       v_.head(r_).noalias() = at.condensed.Z * y_.head(r_);
@@ -124,11 +177,12 @@ void DynamicStiffness::residual(In u, double force_factor, Out R) const {
 }
 
 void DynamicStiffness::add_to(Eigen::MatrixXd& J) const {
-  for (const Harmonic& at : harmonics_) {
+  for (Harmonic& at : harmonics_) {
     const int size = size_, a = at.cosine, b = at.sine;
+    const ComplexMatrix& matrix = formed(at).Z;
     for (int j = 0; j < r_; ++j)
       for (int i = 0; i < r_; ++i) {
-        const Complex Z = at.condensed.Z(i, j);
+        const Complex Z = matrix(i, j);
         J(i * size + a, j * size + a) += Z.real();
         if (at.order == 0) continue;
         J(i * size + b, j * size + b) += Z.real();
@@ -139,7 +193,7 @@ void DynamicStiffness::add_to(Eigen::MatrixXd& J) const {
 }
 
 void DynamicStiffness::add_order(int n, Eigen::MatrixXd& J_n) const {
-  const auto& Z = harmonics_[static_cast<std::size_t>(layout_.cosine_index(n))].condensed.Z;
+  const ComplexMatrix& Z = formed(harmonics_[static_cast<std::size_t>(layout_.cosine_index(n))]).Z;
   for (int j = 0; j < r_; ++j)
     for (int i = 0; i < r_; ++i) {
       J_n(2 * i, 2 * j) += Z(i, j).real();
@@ -150,13 +204,13 @@ void DynamicStiffness::add_order(int n, Eigen::MatrixXd& J_n) const {
 }
 
 void DynamicStiffness::force(Out f) const {
-  for (const Harmonic& at : harmonics_) scatter(at.condensed.f, at, f);
+  for (Harmonic& at : harmonics_) scatter(formed(at).f, at, f);
 }
 
 void DynamicStiffness::solve(Out x) const {
-  for (const Harmonic& at : harmonics_) {
+  for (Harmonic& at : harmonics_) {
     gather(x, at);
-    scatter(continuation::solve_complex(at.condensed.Z, y_.head(r_)).col(0), at, x);
+    scatter(continuation::solve_complex(formed(at).Z, y_.head(r_)).col(0), at, x);
   }
 }
 
@@ -173,7 +227,7 @@ void DynamicStiffness::parameter_derivative(int k, In u, double force_factor, Ou
       v_.head(r_).noalias() += by->topLeftCorner(r_, r_).lazyProduct(y_.head(r_));
     } else {
       differentiate(k, u, at, force_factor);
-      at.condensed.project(v_);
+      project(at);
     }
     scatter(v_, at, dR);
   }
@@ -189,7 +243,7 @@ void DynamicStiffness::add_base(const model::Direction& d, double force_factor, 
 
 void DynamicStiffness::response(In u, double force_factor, Out x, int place) const {
   for (Harmonic& at : harmonics_) {
-    const auto by = at.condensed.of_observations(responses_).row(place);
+    const auto by = observations(at).row(place);
     Complex sum = force_factor *
                   (by[r_] + parts_.base_displacement(at.order, ground_[static_cast<std::size_t>(place)]));
     for (int i = 0; i < r_; ++i) sum += by[i] * at.amplitude(u, i * size_);
@@ -214,7 +268,7 @@ Eigen::MatrixXd DynamicStiffness::motion(const Eigen::MatrixXd& P, In u, double 
 void DynamicStiffness::response_transposed(In a, Out g, int place) const {
   g.tail(g.size() - r_ * size_).setZero();  // further unknowns, of elements, do not move the response
   for (Harmonic& at : harmonics_) {         // L^T; with a real inner product the transpose is the conjugate
-    const auto by = at.condensed.of_observations(responses_).row(place);
+    const auto by = observations(at).row(place);
     for (int i = 0; i < r_; ++i) at.put(std::conj(by[i]) * at.amplitude(a, 0), i * size_, g);
   }
 }
@@ -238,7 +292,7 @@ void DynamicStiffness::response_derivative(int k, In u, double force_factor, Out
         change += (*by)(r_ + place, i) * at.amplitude(u, static_cast<int>(i) * size_);
     } else {
       differentiate(k, u, at, force_factor);
-      change += at.condensed.observed_change(v_, place);
+      change += observed_change(at, place);
     }
     at.put(change, 0, dx);
   }

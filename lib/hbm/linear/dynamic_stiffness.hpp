@@ -9,6 +9,7 @@
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/linear/condensation.hpp>
 #include <arcslip/hbm/linear/coordinates.hpp>
+#include <arcslip/hbm/linear/modal_operator.hpp>
 
 #include <vector>
 
@@ -63,6 +64,9 @@ class DynamicStiffness {
     bool driven;              // by a force of the scene, whatever its value
     Condensed condensed;
     ComplexVector force{};  // before condensation
+    ModalEquation
+        modal{};  // with many unknowns in modes; then `condensed` has Z and f, where they are formed
+    bool is_formed = false;
 
     // X_n of the coordinate whose coefficients begin at `first`; X_0 is real.
     Complex amplitude(const In& x, int first) const {
@@ -80,7 +84,12 @@ class DynamicStiffness {
   void differentiate(int k, const In& u, const Harmonic& at, double force_factor) const;
   // By the frequency, of coordinates in modes and few unknowns: Condensed::rates. Null: not by these.
   const ComplexMatrix* rates(int k, Harmonic& at) const;
+  bool prepare(Harmonic& at);
   bool condense(Harmonic& at);
+  const Condensed& formed(Harmonic& at) const;
+  const ComplexMatrix& observations(Harmonic& at) const;
+  Complex observed_change(const Harmonic& at, int place) const;  // of v_
+  void project(const Harmonic& at) const;                        // v_
   void scatter(const ComplexVector& q, const Harmonic& at, Out& x) const;
 
   const int r_, l_;
@@ -92,7 +101,10 @@ class DynamicStiffness {
   control::Control control_;
   LinearParts parts_;
   mutable std::optional<ModalCondensation> modal_;
-  std::optional<Condensation> direct_;  // without modes, or where too many parts differ from them
+  mutable std::optional<ModalOperator> operator_;  // with many unknowns
+  bool uses_operator_ = false;                     // at the last place
+  long values_ = -1;                               // LinearParts::changes_of_values() there
+  std::optional<Condensation> direct_;             // without modes, or where too many parts differ from them
   std::optional<UnsymmetricCondensation> unsymmetric_;  // of a rotor, or linked to the next sector
   ComplexSparse Z_;                                     // before that
   mutable std::vector<Harmonic> harmonics_;             // their rates

@@ -50,22 +50,6 @@ bool is_sparse(const model::Model& model) {
 
 }  // namespace
 
-void ModalMatrix::add_product(std::complex<double> factor, const Eigen::VectorXcd& y,
-                              Eigen::VectorXcd& v) const {
-  const Eigen::Index r = qq.rows(), l = ll.size();
-  for (Eigen::Index i = 0; i < r; ++i) {
-    std::complex<double> sum = 0;
-    for (Eigen::Index k = 0; k < r; ++k) sum += qq(k, i) * y[k];
-    for (Eigen::Index j = 0; j < l; ++j) sum += lq(j, i) * y[r + j];
-    v[i] += factor * sum;
-  }
-  for (Eigen::Index j = 0; j < l; ++j) {
-    std::complex<double> sum = ll[j] * y[r + j];
-    for (Eigen::Index k = 0; k < r; ++k) sum += lq(j, k) * y[k];
-    v[r + j] += factor * sum;
-  }
-}
-
 double ModalMatrix::form(const Eigen::VectorXcd& y) const {
   const Eigen::Index r = qq.rows(), l = ll.size();
   double sum = 0;

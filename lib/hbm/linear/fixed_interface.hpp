@@ -8,6 +8,7 @@
 // so that a harmonic costs O(l r^2) instead of a factorization. Parts with other values, and dampers that are
 // not proportional, are changes of low rank, value * g(s) d d^T each.
 
+#include <arcslip/hbm/linear/reduced_direction.hpp>
 #include <arcslip/model/model.hpp>
 
 #include <complex>
@@ -15,13 +16,27 @@
 
 namespace arcslip::hbm {
 
+/// g of the masses, the dampers and the springs at one s.
+struct Factors {
+  Complex mass, damper, spring;
+  double circulatory = 0;
+
+  Complex of(model::LinearKind kind) const {
+    if (kind == model::LinearKind::circulatory) return circulatory;
+    if (kind == model::LinearKind::mass) return mass;
+    return kind == model::LinearKind::damper ? damper : spring;
+  }
+  /// Of an entry of Z.
+  Complex combine(double M, double C, double K) const {
+    return {mass.real() * M + spring.real() * K, mass.imag() * M + damper.imag() * C + spring.imag() * K};
+  }
+};
+
 /// A symmetric matrix in y whose block ll is diagonal.
 struct ModalMatrix {
   Eigen::MatrixXd qq, lq;
   Eigen::VectorXd ll;
 
-  /// v += factor (this y)
-  void add_product(std::complex<double> factor, const Eigen::VectorXcd& y, Eigen::VectorXcd& v) const;
   /// y^H this y
   double form(const Eigen::VectorXcd& y) const;
 };
@@ -32,6 +47,9 @@ struct FixedInterfaceModes {
   bool damped = false;        // C holds all dampers; else none
   Eigen::MatrixXd of_linear;  // l x l: the modes in the linear coordinates that were given
 };
+
+/// |D_j| relative to K_jj + s^2 M_jj: below, Z_ll is singular to rounding.
+inline constexpr double modal_pole = 1e-14;
 
 /// Parts that may differ from the modes' values, or dampers outside of C, before a factorization costs less.
 inline constexpr int most_changes = 16;

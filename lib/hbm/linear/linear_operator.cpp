@@ -54,7 +54,10 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
   add(LinearKind::spring, model.springs);
   for (const model::MatrixPart& part : model.matrices) matrix_parts_.push_back({part});
   if (!matrix_parts_.empty()) P_ = P;
-  if (!modes_) set_waves(harmonics);
+  if (modes_)
+    products_.emplace(modes_);
+  else
+    set_waves(harmonics);
   if (!symmetric()) set_positions();
   damping_ = model.damping;
   for (const model::Excitation& excitation : model.excitation) {
@@ -142,6 +145,7 @@ void LinearParts::move_to(In p) {
 }
 
 void LinearParts::set_values() {
+  ++changes_of_values_;
   changes_.clear();
   if (!symmetric()) return;
   modal_ = modes_ != nullptr;
@@ -344,9 +348,7 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
 void LinearParts::add_product(const Factors& g, int n, const ComplexVector& y, ComplexVector& v) const {
   const Complex t = turn(n);
   if (modal_) {
-    modes_->M.add_product(g.mass, y, v);
-    modes_->C.add_product(g.damper, y, v);
-    if (g.spring != 0.0) modes_->K.add_product(g.spring, y, v);
+    products_->add(g, y, v);
     for (const ChangedPart& change : changes_)
       change.part->direction.add(g.of(change.part->kind) * change.by * change.part->direction.along(y, t), t,
                                  v);

@@ -16,7 +16,7 @@
 // value * g conj(d) d^T, and a matrix value * g A_d of its wave (model::WaveMatrices): Z is linked, not
 // symmetric, with M, C and K Hermitian but for unsymmetric matrices.
 
-#include <arcslip/hbm/linear/fixed_interface.hpp>
+#include <arcslip/hbm/linear/modal_products.hpp>
 #include <arcslip/hbm/linear/reduced_direction.hpp>
 
 #include <cmath>
@@ -35,22 +35,6 @@ struct PartInY {
   int parameter;
   DirectionInY direction;
   double value;  // at the last place
-};
-
-/// g of the masses, the dampers and the springs at one s.
-struct Factors {
-  Complex mass, damper, spring;
-  double circulatory = 0;
-
-  Complex of(model::LinearKind kind) const {
-    if (kind == model::LinearKind::circulatory) return circulatory;
-    if (kind == model::LinearKind::mass) return mass;
-    return kind == model::LinearKind::damper ? damper : spring;
-  }
-  /// Of an entry of Z.
-  Complex combine(double M, double C, double K) const {
-    return {mass.real() * M + spring.real() * K, mass.imag() * M + damper.imag() * C + spring.imag() * K};
-  }
 };
 
 /// M, C, K in y, where Z is symmetric.
@@ -98,6 +82,12 @@ class LinearParts {
   /// Null where too many parts have other values than the modes; then matrices() are those of the place.
   const FixedInterfaceModes* modes() const { return modal_ ? modes_.get() : nullptr; }
   const std::vector<ChangedPart>& changes() const { return changes_; }
+  /// Whether Z is that of the modes, with no other parts.
+  bool purely_modal() const { return modal_ && symmetric() && changes_.empty(); }
+  /// Products with the modes, where there are any.
+  ModalProducts& products() const { return *products_; }
+  /// Counts the places at which values other than the frequency changed.
+  long changes_of_values() const { return changes_of_values_; }
   const StructuralMatrices& matrices() const { return matrices_; }
   /// False where masses, dampers, springs or matrices reach into the next sector, or a matrix of the
   /// structure is unsymmetric. Z is then by dynamic_stiffness() alone.
@@ -180,6 +170,8 @@ class LinearParts {
   int period_;
   Eigen::Index size_;
   std::shared_ptr<const FixedInterfaceModes> modes_;
+  mutable std::optional<ModalProducts> products_;
+  long changes_of_values_ = 0;
   bool has_place_ = false, modal_ = false, force_changed_ = true;
   std::vector<ChangedPart> changes_;
   std::vector<PartInY> parts_;

@@ -10,8 +10,6 @@
 namespace arcslip::hbm {
 namespace {
 
-constexpr double modal_pole = 1e-14;  // D, relative to the sum of its terms
-
 // Real and imaginary parts of a column.
 struct Split {
   double *re, *im;

@@ -1,9 +1,11 @@
-#include <arcslip/continuation/linear/small_lu.hpp>
+#include <arcslip/continuation/linear/lu_in_place.hpp>
 
 #include <arcslip/continuation/linear/cpu_dispatch.hpp>
+#include <arcslip/continuation/linear/lapack.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -57,9 +59,21 @@ Eigen::Index pivot_row(const double* column, Eigen::Index diagonal, Eigen::Index
   }
 }
 
+void factorize_large(Matrix& A, Eigen::VectorXi& order, Eigen::VectorXi& exchanges) {
+  const auto n = static_cast<int>(A.rows());
+  order.setLinSpaced(n, 0, n - 1);
+  if (!A.allFinite()) {
+    A.diagonal().setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  lapack::factorize(n, A.data(), exchanges.data());
+  for (int i = 0; i < n; ++i) std::swap(order[i], order[exchanges[i] - 1]);
+}
+
 }  // namespace
 
-void factorize_small(Matrix& A, Eigen::VectorXi& order) {
+void factorize_in_place(Matrix& A, Eigen::VectorXi& order, Eigen::VectorXi& work) {
+  if (A.rows() >= lapack::smallest_lu) return factorize_large(A, order, work);
   widest([&]() __attribute__((always_inline)) { factorize(A.data(), order.data(), A.rows()); });
 }
 
