@@ -59,6 +59,8 @@ void check(const Options& o) {
   require(o.step.smallest > 0, "step.smallest", o.step.smallest, "> 0");
   require(o.step.largest >= 0, "step.largest", o.step.largest, ">= 0");
   require(o.step.curve_tolerance >= 0, "step.curve_tolerance", o.step.curve_tolerance, ">= 0");
+  require(!o.step.pass_kinks || o.step.curve_tolerance > 0, "step.curve_tolerance", o.step.curve_tolerance,
+          "> 0 with step.pass_kinks");
   require(o.seconds >= 0, "options.seconds", o.seconds, ">= 0");
   require(o.step.largest_parameter >= 0, "step.largest_parameter", o.step.largest_parameter, ">= 0");
   require(o.step.relative_parameter >= 0, "step.relative_parameter", o.step.relative_parameter, ">= 0");

@@ -35,6 +35,12 @@ struct StepOptions {
   /// with kinks, by one residual and one solve. 0: no control.
   double curve_tolerance = 0;
 
+  /// Kinks are passed wherever the branch keeps within curve_tolerance of the cubic across them, and located
+  /// only where a monitor may have an event, or asks for kinks: for problems with many kinks, each of which
+  /// matters little. An extremum that two kinks make between points may then be missed, if it is no higher
+  /// than curve_tolerance allows. Requires curve_tolerance.
+  bool pass_kinks = false;
+
   double angle = 0.2;          // rad, target angle between the tangents of neighbouring points
   double largest_angle = 0.6;  // rad, maximum; more counts as a jump to another branch, unless at a kink
   double contraction = 0.3;    // target ratio of the corrector's first two corrections

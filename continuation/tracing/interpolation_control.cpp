@@ -19,6 +19,8 @@ constexpr double unknown_curve_error = 1 / 0.3;   // where the problem cannot be
 // the angle times the length of the step at one of these shares of it.
 constexpr double shares_across_kinks[] = {0.25, 0.5, 0.75};
 constexpr double least_departure = 1.0 / 20;
+constexpr double across_many =
+    0.5;  // of the error allowed: kinks between these shares may take it twice as far
 constexpr double slope_safety = 10;  // of a slope's sign, at a kink
 
 // Whether a slope with values a and b at the ends of a step, and a deviation bend s (1 - s) from the straight
@@ -35,18 +37,50 @@ bool is_resolved(double a, double b, double bend) {
 bool InterpolationControl::passes_kinks(TrialStep& trial) {
   const CurvePoint &from = s_.here, &to = trial.end;
   if (!looks_for_kinks_ || from.piece == to.piece || from.part != to.part) return false;
-  const double length = distance(main_, from.v, to.v);
+  const bool by_curve_alone = options_.step.pass_kinks;
+  const double length = distance(main_, from.v, to.v),
+               allowed = (by_curve_alone ? across_many : 1) * allowed_error(from, to);
   double farthest = 0;
   for (const double share : shares_across_kinks) {
     hermite(from.v, from.tangent, to.v, to.tangent, length, share, middle_);
     const double departure = main_.distance_from_branch(middle_);
-    if (!(departure <= allowed_error(from, to))) return false;
+    if (!(departure <= allowed) && !(by_curve_alone && std::isfinite(departure))) return false;
     farthest = std::max(farthest, departure);
   }
-  const double turn = farthest / (least_departure * length);
-  if (!(turn < visible_corner) || !keeps_signs(from, to, turn) || !resolves(from, to, trial)) return false;
-  trial.curve_error = options_.step.curve_tolerance > 0 ? farthest / allowed_error(from, to) : 0;
+  const bool leaves_curve = farthest > allowed;
+  if (leaves_curve && stretch_is_short(unresolved_share)) return false;
+  if (!leaves_curve && !(by_curve_alone ? has_no_event(from, to) : turns_unseen(from, to, farthest, length)))
+    return false;
+  if (!leaves_curve && !resolves(from, to, trial)) return false;
+  trial.curve_error = options_.step.curve_tolerance > 0 ? farthest / allowed : 0;
+  if (leaves_curve) {
+    trial.worst_begin = from.arclength;
+    trial.worst_end = from.arclength + length;
+    begin_stretch(length);
+  }
   return trial.passes_kinks = true;
+}
+
+// Whether kinks that take the branch so far off the cubic are too small to be seen, and to change the sign of
+// a monitored slope.
+bool InterpolationControl::turns_unseen(const CurvePoint& from, const CurvePoint& to, double farthest,
+                                        double length) const {
+  const double turn = farthest / (least_departure * length);
+  return turn < visible_corner && keeps_signs(from, to, turn);
+}
+
+// Whether no monitor asks for kinks, and none of a slope has an event between places with these values: an
+// extremum that both ends hide is no farther from the cubic than the curve.
+bool InterpolationControl::has_no_event(const CurvePoint& from, const CurvePoint& to) const {
+  for (std::size_t m = 0; m < monitors_.size(); ++m) {
+    if (monitors_[m].kind == MonitorKind::kink) return false;
+    if (!monitors_[m].quantity) continue;
+    const double a = from.monitors[m], b = to.monitors[m];
+    const Crossing wanted = monitors_[m].crossing;
+    const bool unwanted = (a < 0 && wanted == Crossing::falling) || (a > 0 && wanted == Crossing::rising);
+    if (!(a * b > 0 || unwanted)) return false;
+  }
+  return true;
 }
 
 // Whether no slope of a monitored quantity can pass zero where the tangent turns by this angle.
@@ -105,7 +139,8 @@ double InterpolationControl::allowed_error(const CurvePoint& from, const CurvePo
 }
 
 bool InterpolationControl::misses_kinks(const TrialStep& trial) {
-  if (!trial.other_piece_between || stretch_is_short(unresolved_share)) return false;
+  if (!trial.other_piece_between || options_.step.pass_kinks || stretch_is_short(unresolved_share))
+    return false;
   begin_stretch(trial.length);
   return true;
 }

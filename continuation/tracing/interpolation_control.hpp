@@ -25,7 +25,8 @@ class InterpolationControl {
 
   /// Whether a step between two pieces may go over its kinks as if it were smooth, as they turn the branch
   /// too little to change the sign of any monitored slope, or to be seen. Decided by the distance of the
-  /// branch from the cubic. Fills passes_kinks, and then curve_error.
+  /// branch from the cubic. With StepOptions::pass_kinks the curve alone decides where no slope has an event.
+  /// Fills passes_kinks, and then curve_error, above 1 where a shorter step may pass.
   bool passes_kinks(TrialStep& trial);
 
   /// Fills curve_error, the largest error of the cubics along the smooth pieces relative to the tolerance,
@@ -50,6 +51,8 @@ class InterpolationControl {
  private:
   double curve_error(const CurvePoint& from, TrialStep& trial, const CurvePoint& to);
   double allowed_error(const CurvePoint& from, const CurvePoint& to) const;
+  bool turns_unseen(const CurvePoint& from, const CurvePoint& to, double farthest, double length) const;
+  bool has_no_event(const CurvePoint& from, const CurvePoint& to) const;
   bool keeps_signs(const CurvePoint& from, const CurvePoint& to, double turn) const;
   bool resolves(const CurvePoint& from, const CurvePoint& to, TrialStep& trial) const;
   double chord_departure(const CurvePoint& from, const CurvePoint& to, std::size_t m, double length) const;

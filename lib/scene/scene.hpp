@@ -27,6 +27,9 @@ struct Catalogue;
 
 enum class FrequencyUnit { hertz, radian_per_second };
 enum class Friction { exact, sampled };
+/// Changes of contact states along a branch: each is located, or they are passed where the curve allows it;
+/// automatic: passed with many contacts.
+enum class Kinks { automatic, located, passed };
 enum class Frame { relative, absolute };  // of a response: relative to the ground or not
 /// The direction in which a part acts on the degrees of freedom: sum of weight * x_dof. Ground has no term.
 struct Term {
@@ -69,6 +72,7 @@ struct Harmonics {
   /// If not 0, studies choose the order by it, up to `order`: of amplitudes, relative to the largest one
   /// (studies/order_selection.hpp). Functions that run no study use `order`.
   double accuracy = 0;
+  Kinks kinks = Kinks::automatic;
   bool chosen = false;  // the order is one that a study tries by its accuracy: all points are estimated
   friend bool operator==(const Harmonics&, const Harmonics&) = default;
 };

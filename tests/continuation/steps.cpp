@@ -35,6 +35,32 @@ Monitor peak_of_u() {
   return peak;
 }
 
+// u = 2 + sin p + sum of c_k |p - a_k|, with 60 kinks of either sign.
+struct ManyKinks {
+  static constexpr int count = 60;
+  static double place(int k) { return -0.9 + 4.7 * k / count + 0.02 * std::sin(5.0 * k); }
+  static double strength(int k) { return 2e-3 * std::cos(3.0 * k); }
+  static double value(double p) {
+    double u = 2 + std::sin(p);
+    for (int k = 0; k < count; ++k) u += strength(k) * std::abs(p - place(k));
+    return u;
+  }
+  static double slope_of_kinks(double p) {
+    double sum = 0;
+    for (int k = 0; k < count; ++k) sum += p > place(k) ? strength(k) : -strength(k);
+    return sum;
+  }
+  static double slope(double p) { return std::cos(p) + slope_of_kinks(p); }
+  static std::uint64_t piece(double p) {
+    std::uint64_t passed = 0;
+    for (int k = 0; k < count; ++k) passed += p > place(k);
+    return passed;
+  }
+  static Branch branch(const Options& options, const std::vector<Monitor>& monitors) {
+    return trace(graph(value, slope, [](In, In p) { return piece(p[0]); }), on(value, -1), options, monitors);
+  }
+};
+
 Branch cusp_branch(const Options& options) {
   return trace(cusp(), {Vector::Constant(1, -1.3), Vector{{-1.0, 1.0}}, 0, 1}, options, {fold_monitor()});
 }
@@ -222,6 +248,54 @@ TEST_CASE("a kink too small to turn the branch is passed whatever curve_toleranc
     CHECK(branch.stop.reason == StopReason::boundary);
     CHECK(branch.counts.rejected_steps < 10);
   }
+}
+
+TEST_CASE(
+    "many kinks are passed where the curve allows it, and a maximum between them is located all the same") {
+  for (double tolerance : {1e-3, 1e-4, 1e-5}) {
+    Options options = window(-1, 4);
+    options.step.curve_tolerance = tolerance;
+    options.step.largest_parameter = 10;
+    options.step.pass_kinks = true;
+    const Branch branch = ManyKinks::branch(options, {peak_of_u()});
+    REQUIRE(branch.stop.reason == StopReason::boundary);
+    REQUIRE(branch.events.size() == 1);
+    const double at = branch.events[0].point.parameter;
+    CHECK(std::abs(at - std::acos(-ManyKinks::slope_of_kinks(at))) < 1e-12);
+    double worst = 0;
+    for (int k = 0; k <= 5000; ++k) {
+      const Point point = interpolate(branch, branch.points.back().arclength * k / 5000);
+      const double exact = ManyKinks::value(point.parameter);
+      worst = std::max(worst, std::abs(point.u[0] - exact) / exact);
+    }
+    options.step.pass_kinks = false;
+    const Branch located = ManyKinks::branch(options, {peak_of_u()});
+    CAPTURE(tolerance, worst, branch.points.size(), branch.counts.residuals, located.points.size(),
+            located.counts.residuals);
+    CHECK(worst < tolerance);
+    CHECK(2 * branch.counts.residuals < located.counts.residuals);
+  }
+}
+
+TEST_CASE("kinks that a monitor asks for are located where others would be passed") {
+  Options options = window(-1, 4);
+  options.step.curve_tolerance = 1e-3;
+  options.step.pass_kinks = true;
+  const Branch branch = ManyKinks::branch(options, {kink_monitor()});
+  for (int k = 0; k < ManyKinks::count; ++k) {
+    if (std::abs(ManyKinks::strength(k)) < 5e-4) continue;
+    double nearest = 1;
+    for (const Event& event : branch.events)
+      nearest = std::min(nearest, std::abs(event.point.parameter - ManyKinks::place(k)));
+    CAPTURE(k);
+    CHECK(nearest < 1e-9);
+  }
+}
+
+TEST_CASE("kinks are passed by the error of the curve alone: without a tolerance of it they are not") {
+  Options options = window(-1, 4);
+  options.step.pass_kinks = true;
+  CHECK_THROWS_AS(ManyKinks::branch(options, {}), std::invalid_argument);
 }
 
 TEST_CASE("no point of a branch lies between its ends' arclengths and beyond") {

@@ -26,6 +26,7 @@ namespace {
 using continuation::Vector;
 
 constexpr double points_in_window = 150;           // at least, from end to end, of a curve
+constexpr double points_across_kinks = 60;         // the same, where kinks are passed
 constexpr double events_in_window = 20;            // the same, where only its events are asked for
 constexpr double step_between_events = 1.0 / 200;  // relative to the highest frequency
 constexpr double largest_frequency_step = 0.05;  // of the frequency, so that wide windows keep their low end
@@ -214,6 +215,22 @@ continuation::Options frequency_options(const FrequencyWindow& window, Steps ste
   return options;
 }
 
+bool passes_kinks(const model::Model& model) {
+  if (model.settings.kinks != scene::Kinks::automatic) return model.settings.kinks == scene::Kinks::passed;
+  const auto contacts = std::count_if(model.elements.begin(), model.elements.end(), [&](const auto& element) {
+    return element.law->corners(model.harmonics) != nullptr;
+  });
+  return contacts > most_located_contacts;
+}
+
+void pass_kinks(const model::Model& model, const MonitoredEvents& watched, continuation::Options& options) {
+  if (watched.stability || watched.branch_points || !(options.step.curve_tolerance > 0)) return;
+  if (!passes_kinks(model)) return;
+  options.step.pass_kinks = true;
+  options.step.curve_tolerance = curve_tolerance_across_kinks;
+  options.step.largest_parameter *= points_in_window / points_across_kinks;
+}
+
 std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Observer>& observer, Steps steps,
                                                       const MonitoredEvents& watched) {
   std::vector monitors{continuation::fold_monitor()};  // so that no pair of folds is stepped over
@@ -289,6 +306,7 @@ FrequencyBranch frequency_branch(const std::shared_ptr<const model::Model>& mode
                            ? std::make_shared<const hbm::HbmProblem>(*first.problem, displacement)
                            : first.problem;
   continuation::Options options = frequency_options(window, steps, control);
+  pass_kinks(*model, watched, options);
   options.largest_state *= size_without_elements(*problem, window);
   FrequencyBranch found = traced(problem, *first.u, from, options, record, direction, steps, watched);
   found.branch.counts += first.work;
@@ -300,6 +318,7 @@ FrequencyBranch frequency_branch_part(const std::shared_ptr<const hbm::HbmProble
                                       const Record& record, int direction, Steps steps,
                                       const control::Control& control, const MonitoredEvents& watched) {
   continuation::Options options = frequency_options(window, steps, control);
+  pass_kinks(problem->model(), watched, options);
   (to > from ? options.upper : options.lower) = to;
   return traced(problem, u, from, options, record, direction, steps, watched);
 }

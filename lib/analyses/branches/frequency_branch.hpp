@@ -82,6 +82,12 @@ using Record = std::function<bool(Observer&, const continuation::Accepted&, cons
 
 /// Of curves of responses and of modes: no resonance narrower than a step goes by unseen.
 inline constexpr double curve_tolerance = 1e-5;
+/// The same where kinks are passed.
+inline constexpr double curve_tolerance_across_kinks = 1e-3;
+
+/// From more contacts on kinks are passed.
+inline constexpr int most_located_contacts = 20;
+bool passes_kinks(const model::Model& model);
 
 /// Maximum step. curve: about 1/150 of the window, for plots. events: for peaks and folds only, at least
 /// 1/200 of the highest frequency, but at most 1/20 of the window. passage: as curve, without peaks, and with
@@ -99,6 +105,9 @@ struct MonitoredEvents {
 /// Options and monitors of branches over the frequency.
 continuation::Options frequency_options(const FrequencyWindow& window, Steps steps,
                                         const control::Control& control);
+/// With many contacts (scene::Kinks): kinks are passed, in a coarser curve with fewer points, unless a
+/// monitor of stability or of branch points needs them.
+void pass_kinks(const model::Model& model, const MonitoredEvents& watched, continuation::Options& options);
 std::vector<continuation::Monitor> frequency_monitors(const std::shared_ptr<Observer>& observer, Steps steps,
                                                       const MonitoredEvents& watched);
 

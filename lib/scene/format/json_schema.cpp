@@ -451,7 +451,8 @@ Node harmonics_section() {
                        {"accuracy", of(std::move(accuracy))},
                        {"period", of(std::move(period))},
                        {"friction", one_of_words(friction_methods, Harmonics{}.friction)},
-                       {"samples", of(std::move(samples))}},
+                       {"samples", of(std::move(samples))},
+                       {"kinks", one_of_words(kinks_words, Harmonics{}.kinks)}},
                       {}));
 }
 

@@ -41,7 +41,7 @@ Harmonics read_harmonics(const Location& place, Faults& faults) {
   harmonics.accuracy = default_accuracy;
   harmonics.order = default_highest;
   if (place.node != nullptr) {
-    const Keys keys(place, {"order", "accuracy", "period", "friction", "samples"}, faults);
+    const Keys keys(place, {"order", "accuracy", "period", "friction", "samples", "kinks"}, faults);
     const Field accuracy{"accuracy", "-", finest_accuracy, coarsest_accuracy};
     const Location order = keys.find("order"), wanted = keys.find("accuracy");
     harmonics.period =
@@ -55,6 +55,7 @@ Harmonics read_harmonics(const Location& place, Faults& faults) {
     harmonics.samples = read_integer(keys.find("samples"), 1, largest_samples, faults,
                                      ", and at least 4*order + 4 where it is used")
                             .value_or(harmonics.samples);
+    harmonics.kinks = read_choice(keys.find("kinks"), kinks_words, harmonics.kinks, faults);
   }
   return harmonics;
 }
