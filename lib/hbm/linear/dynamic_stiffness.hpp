@@ -9,7 +9,7 @@
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/hbm/linear/condensation.hpp>
 #include <arcslip/hbm/linear/coordinates.hpp>
-#include <arcslip/hbm/linear/modal_operator.hpp>
+#include <arcslip/hbm/linear/modal_products.hpp>
 
 #include <vector>
 

@@ -43,4 +43,44 @@ class ModalProducts {
   Eigen::VectorXd re_, im_;
 };
 
+/// The equation of one harmonic in modes, Z q = f, of which nothing is formed but D^-1 = Z_ll^-1.
+struct ModalEquation {
+  Factors g;
+  ComplexVector inverse;       // of D
+  ComplexMatrix observations;  // of ModalOperator::observations(), where it has been computed
+  bool has_observations = false;
+};
+
+/// Mutable, one for each evaluator.
+class ModalOperator {
+ public:
+  /// observed: c, a column for each observation.
+  ModalOperator(ModalProducts& products, const Eigen::MatrixXd& observed);
+
+  /// At these factors of n times the base frequency, s. False where D is singular to rounding.
+  bool move_to(const Factors& g, double s, ModalEquation& at) const;
+
+  /// y = (q, l) from its q, with l = D^-1 (force_factor f_l - Z_lq q).
+  void expand(const ModalEquation& at, const ComplexVector& f, double force_factor, ComplexVector& y);
+  /// v_q := Z_qq q + Z_ql l - force_factor f_q, the residual, of such a y.
+  void residual(const ModalEquation& at, const ComplexVector& f, double force_factor, const ComplexVector& y,
+                ComplexVector& v);
+  /// v_q := v_q - Z_ql D^-1 v_l; v_l is lost.
+  void project(const ModalEquation& at, ComplexVector& v);
+  /// x = c . y of each observation by q, and in the last column by the force factor.
+  const ComplexMatrix& observations(ModalEquation& at, const ComplexVector& f);
+  /// -c_l . D^-1 v_l of an observation.
+  Complex observed_change(const ModalEquation& at, const ComplexVector& v, int observation) const;
+  /// Z and f, formed.
+  void form(const ModalEquation& at, const ComplexVector& f, ComplexMatrix& Z, ComplexVector& condensed);
+
+ private:
+  ModalProducts& products_;
+  const Eigen::Index r_, l_;
+  const Eigen::MatrixXd& c_;
+  ComplexVector v_;
+  Eigen::MatrixXd right_, turned_, solved_;  // 2 l x r: (re, -im) and (im, re) of Z_lq, (re, im) of D^-1 Z_lq
+  Eigen::MatrixXd re_, im_;                  // of Z_ql D^-1 Z_lq
+};
+
 }  // namespace arcslip::hbm

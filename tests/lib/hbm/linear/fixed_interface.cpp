@@ -8,6 +8,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <complex>
 #include <map>
 #include <numbers>
@@ -135,6 +136,35 @@ TEST_CASE("with fixed-interface modes a structure is the same, for proportional 
         CHECK((modal.at(p, u) - direct.at(p, u)).cwiseAbs().maxCoeff() < 1e-9);
       }
     }
+}
+
+TEST_CASE("with fixed-interface modes and many contacts a place is the same whatever places were before") {
+  scene::Scene s = chain(Damping::proportional);
+  for (int i = 10; i < 20; ++i)
+    s.elements.push_back({"d" + std::to_string(i), &elements::jenkins(), {{{i, 1.0}}}, {1e3, 0.5, 2.0}});
+  s.springs.push_back({"hold", &scene::spring_type(), {{{chain_dofs - 1, 1.0}}}, {5e3}});  // for a mean
+  s.excitation.push_back({"mean", &scene::force_type(), {{{25, 1.0}}}, {2.0, 0.0}, 0});
+  Structure modal(s, true), direct(s, false);
+  REQUIRE(modal.coordinates.modes);
+  const Vector u = Vector::Random(modal.coordinates.unknowns * modal.model->harmonics.size());
+  Vector p = model::defaults(*modal.model);
+  const auto check = [&](const std::string& parameter, double factor) {
+    const auto& all = modal.model->parameters;
+    const auto at =
+        std::find_if(all.begin(), all.end(), [&](const auto& each) { return each.name == parameter; });
+    REQUIRE(at != all.end());
+    p[at - all.begin()] *= factor;
+    CAPTURE(parameter, factor);
+    CHECK((modal.at(p, u) - direct.at(p, u)).cwiseAbs().maxCoeff() < 1e-9);
+  };
+  p[model::frequency] = 64;
+  check("k7.value", 1);
+  check("mean.cosine", 3);
+  check("k7.value", 1.25);
+  p[model::frequency] = 21;
+  check("mean.cosine", 0.5);
+  check("k7.value", 0.8);
+  check("d12.normal_load", 2);
 }
 
 TEST_CASE("fixed-interface modes have the same digits in units of mass and force 512 times as large") {
