@@ -44,6 +44,7 @@ Rounding rounding(const scene::Matrices& matrices, const Partition& parts, doubl
     const bool is_free = std::abs(K.of) <= unknown;
     const double change = 4 * last_digits / (is_free ? 1 : std::abs(K.of));
     if (!(change <= found.change)) found.change = change;
+    found.of_stiffness = std::max(found.of_stiffness, 4 * last_digits);
     if (!is_free) break;
     found.free_below = std::max(found.free_below, std::sqrt(unknown / M.of));
   }

@@ -15,6 +15,8 @@ struct Rounding {
   /// Of the square of the lowest natural frequency above free_below, relative to it; or more: of those below,
   /// relative to sigma. NaN where it is not known.
   double change = 0;
+  /// The same next to x^T (K + sigma M) x, as errors of a reduction are measured.
+  double of_stiffness = 0;
   /// Natural frequencies below this, rad/s, are not distinguished from 0: rigid-body motions. 0: there are
   /// none.
   double free_below = 0;

@@ -4,67 +4,40 @@
 #include <arcslip/control/interruptible.hpp>
 #include <arcslip/structure/blocks.hpp>
 #include <arcslip/structure/digit_loss.hpp>
+#include <arcslip/structure/interior_factor.hpp>
+#include <arcslip/structure/krylov_space.hpp>
+#include <arcslip/structure/products.hpp>
 #include <arcslip/structure/projected.hpp>
 #include <arcslip/structure/symmetry.hpp>
-
-#include <Eigen/CholmodSupport>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
-#include <new>
 #include <optional>
 #include <random>
 #include <sstream>
 #include <utility>
 
-#include <sys/mman.h>
-
 namespace arcslip::structure {
 namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+using Kind = PartOfZ::Kind;
 
 constexpr double shift_at = 0.3;     // sqrt(sigma) over the highest frequency
-constexpr double tolerance = 1e-11;  // of the error
-constexpr double converging = 1e-6;  // the same: from here on each estimate is much less
+constexpr double converging = 1e-6;  // of the error: from here on rounding ends its fall
 constexpr double settling = 1e-2;    // the same: from here on some of the next few are
 constexpr int next_few = 6;          // estimates
+constexpr int few_of_rounding = 3;   // estimates, where rounding ends the fall
 constexpr double much_less = 0.3;    // an error over the one before
 constexpr double largest_error = 1e-3;
-constexpr double growth = 1.1;       // of V from one estimate to the next
-constexpr double dependent = 1e-12;  // what remains of a vector after taking out those before
-constexpr double almost = 0.1;       // the same: from here on rounding counts
-
-constexpr const char* interrupted = "interrupted while the structure was reduced";
-
-void listen(const control::Control& control) {
-  if (!control.keep_going()) throw control::Interrupted(interrupted);
-}
-
-// OpenBLAS takes 128 MB at its first use, and asks for them without an end where there are none.
-constexpr std::size_t memory_of_blas = std::size_t{168} << 20;  // bytes
-
-void require_memory_of_blas() {
-  static std::once_flag known;
-  std::call_once(known, [] {
-    void* const memory = ::mmap(nullptr, memory_of_blas, PROT_READ | PROT_WRITE,
-                                MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    ::munmap(memory, memory_of_blas);
-  });
-}
-
-class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse> {
- public:
-  using CholmodSupernodalLLT::CholmodSupernodalLLT;
-  // The column where it failed, in the order of the matrix.
-  std::optional<Index> failed_at() const {
-    if (m_cholmodFactor == nullptr || m_cholmodFactor->minor >= m_cholmodFactor->n) return {};
-    return static_cast<const int*>(m_cholmodFactor->Perm)[m_cholmodFactor->minor];
-  }
-};
+constexpr double growth = 1.1;             // of V from one estimate to the next
+constexpr double share_of_entries = 0.5;   // the error next to what the last digits of the entries change
+constexpr double least_accuracy = 1e-8;    // then
+constexpr double share_of_weak = 1e-3;     // of the error: modes that are left out
+constexpr double share_of_left = 0.25;     // of the error: what the space lacks of its own sources
+constexpr double usual_blocks = 3;         // of sources that are cut, between which that share is parted
+constexpr double largest_coupling = 0.03;  // of what is left of p M v for vectors v, next to A
 
 Partition partition_of(const scene::Matrices& matrices, const std::vector<Skew>& skew,
                        const std::vector<int>& kept) {
@@ -91,6 +64,20 @@ scene::Matrices at_speed(scene::Matrices matrices, double square) {
   return matrices;
 }
 
+// The largest eigenvalue of A v = mu B v.
+double largest_next_to(const MatrixXd& A, const MatrixXd& B) {
+  continuation::Cholesky of_B;
+  if (!of_B.factorize(B)) return HUGE_VAL;
+  const VectorXd values = large_symmetric_eigenvalues(of_B.reduced(A));
+  return values.size() == 0 ? HUGE_VAL : values[values.size() - 1];
+}
+
+// A matrix next to A, and its columns for x_b among the others: R = A_ii Psi + A_ib.
+struct Operator {
+  Blocks of;
+  MatrixXd R;
+};
+
 class Reduction {
  public:
   Reduction(const scene::Matrices& matrices, const std::vector<int>& kept, const Purpose& purpose, Index most,
@@ -98,21 +85,22 @@ class Reduction {
       : square_(0.5 * purpose.highest_speed * purpose.highest_speed),
         matrices_(at_speed(symmetric_parts(matrices), square_)),
         skew_(skew_parts(matrices)),
-        highest_(purpose.highest),
+        accuracy_(purpose.accuracy),
         most_(most),
-        sigma_(std::pow(shift_at * highest_, 2)),
-        control_(control),
+        sigma_(std::pow(shift_at * purpose.highest, 2)),
         parts_(partition_of(matrices_, skew_, kept)),
-        M_(blocks(*matrices_.mass.matrix, parts_)),
-        K_(blocks(*matrices_.stiffness.matrix, parts_)) {
-    if (matrices_.damping.matrix) C_ = blocks(*matrices_.damping.matrix, parts_);
-    if (matrices.stiffness_speed_squared.matrix) {
-      K2_ = blocks(*matrices.stiffness_speed_squared.matrix, parts_);
-    }
-    bool by_speed = K2_.has_value();
+        K_(blocks(*matrices_.stiffness.matrix, parts_)),
+        factor_(control) {
+    P_.sigma = sigma_;
+    P_.highest = purpose.highest;
+    add_operator({Kind::mass, false, false, {}, {}, {}}, *matrices_.mass.matrix);
+    if (matrices_.damping.matrix)
+      add_operator({Kind::damping, false, false, {}, {}, {}}, *matrices_.damping.matrix);
+    if (matrices.stiffness_speed_squared.matrix)
+      add_operator({Kind::stiffening, false, false, {}, {}, {}}, *matrices.stiffness_speed_squared.matrix);
+    bool by_speed = matrices.stiffness_speed_squared.matrix != nullptr;
     for (const Skew& each : skew_) {
-      S_.push_back(blocks(each.A, parts_));
-      P_.skew.push_back({each.of_velocity, each.by_speed, {}, {}, {}});
+      add_operator({Kind::skew, each.of_velocity, each.by_speed, {}, {}, {}}, each.A);
       by_speed = by_speed || each.by_speed;
     }
     if (by_speed && square_ > 0) {
@@ -136,39 +124,35 @@ class Reduction {
       condense_statically();
       result.error = span();
     } else {
-      P_.A_c = K_.bb + sigma_ * M_.bb;
-      P_.M_c = M_.bb;
-      if (C_) P_.C_c = C_->bb;
-      if (K2_) P_.K2_c = K2_->bb;
-      for (std::size_t k = 0; k < S_.size(); ++k) P_.skew[k].c = S_[k].bb;
+      P_.A_c = K_.bb + sigma_ * operators_.front().of.bb;
+      for (std::size_t k = 0; k < operators_.size(); ++k) P_.parts[k].c = operators_[k].of.bb;
       P_.f_c = f_b_;
     }
-    for (const MatrixXd* of : {&P_.M_c, &P_.A_c, &P_.C_c, &P_.K2_c, &P_.f_c, &P_.M_zz, &P_.C_zz, &P_.K2_zz,
-                               &P_.M_zb, &P_.C_zb, &P_.K2_zb, &P_.f_z})
-      if (!of->allFinite()) refuse_overflow();
-    for (const ProjectedSkew& skew : P_.skew)
-      if (!skew.c.allFinite() || !skew.zz.allFinite() || !skew.zb.allFinite()) refuse_overflow();
-    add_rounding(result);
+    const Rounding of_entries = rounding_of_entries();
+    if (!(of_entries.change <= largest_error))
+      refuse("the last digits of their entries change the square of the lowest natural frequency by " +
+             text(of_entries.change) + " of it, must be at most " + text(largest_error) +
+             "; replace very stiff links by rigid ones, and very short elements by longer ones");
+    result.error += of_entries.change;
+    result.free_below = of_entries.free_below;
     project(result);
     return result;
   }
 
  private:
+  void add_operator(PartOfZ part, const scene::SparseMatrix& A) {
+    operators_.push_back({blocks(A, parts_), {}});
+    P_.parts.push_back(std::move(part));
+  }
+  const Operator& M() const { return operators_.front(); }
+
   void factorize() {
-    listen(control_);
-    A_.cholmod().print = 0;
-    // Minimum degree alone: METIS, which CHOLMOD also tries, takes SIGTERM for itself meanwhile.
-    A_.cholmod().nmethods = 1;
-    A_.cholmod().method[0].ordering = CHOLMOD_AMD;
-    const Sparse A = K_.ii + sigma_ * M_.ii;
+    A_ii_ = K_.ii + sigma_ * M().of.ii;
     // Not every LAPACK finds a NaN.
-    if (!Eigen::Map<const VectorXd>(A.valuePtr(), A.nonZeros()).allFinite()) refuse_overflow();
-    require_memory_of_blas();
-    A_.compute(A);
-    listen(control_);
-    if (A_.info() == Eigen::Success) return;
+    if (!Eigen::Map<const VectorXd>(A_ii_.valuePtr(), A_ii_.nonZeros()).allFinite()) refuse_overflow();
+    if (factor_.factorize(A_ii_)) return;
     std::string where;
-    if (const auto column = A_.failed_at())
+    if (const auto column = factor_.failed_at())
       for (std::size_t row = 0; row < parts_.place.size(); ++row)
         if (parts_.place[row] == *column + parts_.kept)
           where = "; the elimination stops at row " + std::to_string(row + 1);
@@ -195,28 +179,16 @@ class Reduction {
   }
 
   void condense_statically() {
-    const MatrixXd A_ib = K_.ib + sigma_ * M_.ib;
-    Psi_ = -A_.solve(A_ib);
-    const auto projected = [&](const Blocks& of, const MatrixXd& R) {
-      const MatrixXd sum = of.bb + Psi_.transpose() * R + of.ib.transpose() * Psi_;
-      return MatrixXd(0.5 * (sum + sum.transpose()));
-    };
-    R_ = M_.ii * Psi_ + M_.ib;
-    P_.M_c = projected(M_, R_);
-    P_.A_c = K_.bb + sigma_ * M_.bb + A_ib.transpose() * Psi_;
+    const Sparse A_ib = K_.ib + sigma_ * M().of.ib;
+    Psi_ = -factor_.solve(A_ib);
+    P_.A_c = K_.bb + sigma_ * M().of.bb + A_ib.transpose() * Psi_;
     P_.A_c = 0.5 * (P_.A_c + P_.A_c.transpose()).eval();
-    if (C_) {
-      R_C_ = C_->ii * Psi_ + C_->ib;
-      P_.C_c = projected(*C_, R_C_);
-    }
-    if (K2_) {
-      R_2_ = K2_->ii * Psi_ + K2_->ib;
-      P_.K2_c = projected(*K2_, R_2_);
-    }
-    for (std::size_t k = 0; k < S_.size(); ++k) {
-      R_S_.push_back(S_[k].ii * Psi_ + S_[k].ib);
-      const MatrixXd sum = S_[k].bb + Psi_.transpose() * R_S_[k] - S_[k].ib.transpose() * Psi_;
-      P_.skew[k].c = 0.5 * (sum - sum.transpose());
+    for (std::size_t k = 0; k < operators_.size(); ++k) {
+      Operator& A = operators_[k];
+      const double sign = P_.parts[k].sign();
+      A.R = A.of.ii * Psi_ + MatrixXd(A.of.ib);
+      const MatrixXd sum = A.of.bb + transposed_product(Psi_, A.R) + sign * (A.of.ib.transpose() * Psi_);
+      P_.parts[k].c = 0.5 * (sum + sign * sum.transpose());
     }
     condense_loads();
   }
@@ -225,7 +197,7 @@ class Reduction {
     P_.f_c = f_b_ + Psi_.transpose() * f_i_;
     P_.load_size.setZero(f_i_.cols());
     if (f_i_.cols() == 0) return;
-    const MatrixXd of_b = continuation::solve(P_.A_c, P_.f_c), of_i = A_.solve(f_i_);
+    const MatrixXd of_b = continuation::solve(P_.A_c, P_.f_c), of_i = factor_.solve(f_i_);
     P_.load_size =
         ((of_b.array() * P_.f_c.array()).colwise().sum() + (of_i.array() * f_i_.array()).colwise().sum())
             .max(0.0)
@@ -234,291 +206,301 @@ class Reduction {
             .transpose();
   }
 
-  // Empties V; A^-1 times each of these is the beginning of the space.
-  MatrixXd first() {
-    V_.resize(parts_.others, 0);
-    AV_.resize(parts_.others, 0);
-    for (MatrixXd* of : {&P_.M_zb, &P_.C_zb, &P_.K2_zb}) of->resize(0, parts_.kept);
-    for (ProjectedSkew& skew : P_.skew) skew.zb.resize(0, parts_.kept);
+  void begin_space() {
+    space_.emplace(factor_, parts_.others);
+    reached_.E.resize(0, 0);
+    for (PartOfZ& part : P_.parts) {
+      part.zb.resize(0, parts_.kept);
+      part.zz.resize(0, 0);
+    }
     P_.f_z.resize(0, f_i_.cols());
-    MatrixXd right = nearby(R_, f_i_);
-    if (C_) right = nearby(right, R_C_);
-    if (K2_) right = nearby(right, R_2_);
-    for (const MatrixXd& R : R_S_) right = nearby(right, R);
-    return right;
   }
 
-  // A vector of the space leads to A^-1 times each of these.
-  MatrixXd next(const MatrixXd& added) const {
-    MatrixXd right = M_.ii * added;
-    if (C_) right = nearby(right, C_->ii * added);
-    if (K2_) right = nearby(right, K2_->ii * added);
-    for (const Blocks& S : S_) right = nearby(right, S.ii * added);
-    return right;
+  KrylovSources sources() const {
+    std::vector<MatrixOfSources> matrices;
+    for (std::size_t k = 0; k < operators_.size(); ++k)
+      matrices.push_back({&operators_[k].R, &operators_[k].of.ii, largest_factor(P_, P_.parts[k])});
+    return {std::move(matrices), f_i_};
+  }
+
+  // What the space lacks of sources of vectors, next to the root of their envelope.
+  struct Block {
+    double left;
+    Index from;
+    MatrixXd E;
+  };
+
+  // Appends to the space what the sources of x_b, of the loads and of its vectors from `from` on lead to.
+  void append_block(bool of_first, Index from, Index most) {
+    KrylovSources X = sources();
+    if (of_first) X.take_first(inverse_scale(P_));
+    const Index old = space_->size(), count = old - from;
+    const double length = count > 0 ? std::max(reached_.length, 1.0) : 1;
+    const double limit = std::sqrt(share_of_left * accuracy_ / amplification_) / (usual_blocks * length);
+    MatrixXd E = reached_.E.bottomRightCorner(count, count);
+    E.diagonal().array() += std::pow(limit / largest_coupling, 2);
+    if (count > 0) {
+      const continuation::SymmetricModes of = large_symmetric_modes(E);
+      if (of.values.size() < count) refuse_overflow();
+      const MatrixXd root = of.V * of.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+      X.take_vectors(product(space_->V().rightCols(count), root));
+    }
+    if (X.count() == 0) return;
+    blocks_.push_back({append_sources(*space_, factor_, X, limit, most, random_), from, E});
+    project_from(old);
+  }
+
+  // Of all blocks, in what the space reached before the last one.
+  double left(const Envelope& reached) const {
+    double sum = 0;
+    for (const Block& block : blocks_) {
+      if (block.left == 0) continue;
+      const Index count = block.E.rows();
+      double length = 1;
+      if (count > 0) {
+        const double larger = largest_next_to(reached.E.block(block.from, block.from, count, count), block.E);
+        length = std::max(reached.length, 1.0) * std::sqrt(std::max(larger, 1.0));
+      }
+      sum += block.left * length;
+    }
+    return sum;
   }
 
   // Makes V, and all that is projected onto it. The estimate of the error.
   double span() {
     const Index most = std::min(most_, parts_.others);
-    MatrixXd right = first();
-    double error = HUGE_VAL, least = HUGE_VAL;
-    Index estimated = 0;  // vectors at the last estimate
-    int since_least = 0;  // estimates
-    while (V_.cols() < most && since_least < next_few && !std::isnan(error)) {
-      const Index old = V_.cols();
-      append(std::move(right), most);
-      if (V_.cols() == old) {  // all that b can excite, to rounding: then any others add nothing
-        append(noise(), most);
-        if (V_.cols() == old) break;
-        const double missed = change(P_, sigma_, highest_, old);
-        if (missed <= tolerance) {
-          keep(old);
-          return missed;
-        }
-      }
-      right = next(V_.rightCols(V_.cols() - old));
-      if (static_cast<double>(V_.cols()) < growth * static_cast<double>(estimated) && V_.cols() < most)
+    begin_space();
+    append_block(true, 0, most);
+    accuracy_ =
+        std::max(accuracy_, std::min(share_of_entries * rounding_of_entries().of_stiffness, least_accuracy));
+    reached_ = known_envelope();
+    Estimates estimates;
+    Index from = 0;  // vectors whose sources the space has
+    while (!estimates.ended) {
+      const Index old = space_->size();
+      append_block(false, from, most);
+      from = old;
+      if (space_->size() > old && space_->size() < most &&
+          static_cast<double>(old) < growth * static_cast<double>(estimates.vectors)) {
+        reach_as_before(old - estimates.vectors);
         continue;
-      const double last = std::exchange(error, change(P_, sigma_, highest_, estimated));
-      if (error <= tolerance) return error;
-      if (std::max(error, last) < converging && error > much_less * last) {
-        keep(estimated);  // to rounding: what came since brings no more
-        return std::max(error, last);
       }
-      since_least = least < settling && !(error < much_less * least) ? since_least + 1 : 0;
-      least = std::min(least, error);
-      estimated = V_.cols();
+      const Envelope before = std::exchange(reached_, known_envelope());
+      estimate(old, before, estimates);
+      if (!estimates.ended && space_->size() == old) {
+        estimates.ended = !tighten(most);
+        from = old;
+      }
+      if (space_->size() >= most) estimates.ended = true;
     }
-    if (std::isnan(error)) refuse_overflow();
+    if (estimates.settled) return estimates.error + leave_out_weak_modes();
     if (parts_.others <= most_) return span_whole();
-    if (error > largest_error)
-      refuse("the error of the dynamic stiffness is " + text(error) + " with " + std::to_string(V_.cols()) +
-             " coordinates and does not fall any further, must be at most " + text(largest_error) +
-             "; lower \"highest_frequency\", or let the scene use fewer rows");
-    return error;
+    if (estimates.error > largest_error)
+      refuse("the error of the dynamic stiffness is " + text(estimates.error) + " with " +
+             std::to_string(space_->size()) + " coordinates and does not fall any further, must be at most " +
+             text(largest_error) + "; lower \"highest_frequency\", or let the scene use fewer rows");
+    return estimates.error;
+  }
+
+  Envelope known_envelope() const {
+    Envelope of = envelope(P_);
+    if (of.E.rows() < space_->size()) refuse_overflow();
+    return of;
+  }
+
+  // The new vectors as far as the last ones before.
+  void reach_as_before(Index last) {
+    const Index old = reached_.E.rows(), count = space_->size();
+    const double largest = reached_.E.diagonal().tail(last).maxCoeff();
+    reached_.E.conservativeResize(count, count);
+    reached_.E.rightCols(count - old).setZero();
+    reached_.E.bottomRows(count - old).setZero();
+    reached_.E.diagonal().tail(count - old).setConstant(largest);
+  }
+
+  struct Estimates {
+    double error = HUGE_VAL, least = HUGE_VAL;
+    Index vectors = 0;    // at the last one
+    int since_least = 0;  // estimates
+    bool settled = false, ended = false;
+  };
+
+  // Of vectors orthogonal to the first ones.
+  double theta_outside(Index first) {
+    if (operators_.size() > 1) return HUGE_VAL;
+    EnergyBasis of_first = *space_;
+    of_first.keep(first);
+    return largest_theta_outside(of_first, factor_, M().of.ii, random_);
+  }
+
+  // Of the first vectors, of whose sources the others are.
+  void estimate(Index first, const Envelope& reached, Estimates& so_far) {
+    const double lacking = left(reached);
+    const ResidualBound found = bound(P_, first, {lacking, theta_outside(first)}, accuracy_);
+    so_far.error = found.error;
+    so_far.vectors = first;
+    if (std::isnan(found.error)) refuse_overflow();
+    amplification_ = found.amplification;
+    const bool falls = found.error < much_less * so_far.least;
+    so_far.since_least = so_far.least < settling && !falls ? so_far.since_least + 1 : 0;
+    so_far.least = std::min(so_far.least, found.error);
+    const bool to_rounding = found.error < converging && so_far.since_least >= few_of_rounding;
+    so_far.settled = found.error <= accuracy_ || to_rounding;
+    so_far.ended = so_far.settled || so_far.since_least >= next_few;
+    if (so_far.settled) keep(first);  // what came since brings no more
+  }
+
+  // The sources of all vectors once more, with what is known of their sizes now. False: nothing is new.
+  bool tighten(Index most) {
+    const Index old = space_->size();
+    amplification_ *= 4;
+    blocks_.clear();
+    append_block(true, 0, most);
+    return space_->size() > old;
+  }
+
+  // What they add.
+  double leave_out_weak_modes() {
+    if (operators_.size() > 1 || space_->size() == 0) return 0;
+    const StrongModes strong = strong_modes(P_, share_of_weak * accuracy_);
+    if (strong.Q.rows() < space_->size()) refuse_overflow();
+    P_.turn(strong.Q);
+    space_->replace(product(space_->V(), strong.Q));
+    return strong.left_out;
   }
 
   // All of the others, where the space has grown to most of them without an end.
   double span_whole() {
     keep(0);
-    const MatrixXd M = M_.ii, A = K_.ii + sigma_ * M_.ii;
-    V_ = continuation::symmetric_modes(M, A).V;
-    if (V_.size() == 0) refuse_indefinite("");
-    P_.M_zz = V_.transpose() * (M_.ii * V_);
-    P_.M_zb = V_.transpose() * R_;
-    P_.f_z = V_.transpose() * f_i_;
-    if (C_) {
-      P_.C_zz = V_.transpose() * (C_->ii * V_);
-      P_.C_zb = V_.transpose() * R_C_;
-    }
-    if (K2_) {
-      P_.K2_zz = V_.transpose() * (K2_->ii * V_);
-      P_.K2_zb = V_.transpose() * R_2_;
-    }
-    for (std::size_t k = 0; k < S_.size(); ++k) {
-      const MatrixXd zz = V_.transpose() * (S_[k].ii * V_);
-      P_.skew[k].zz = 0.5 * (zz - zz.transpose());
-      P_.skew[k].zb = V_.transpose() * R_S_[k];
-    }
+    const MatrixXd dense_M = M().of.ii, A = A_ii_;
+    MatrixXd V = continuation::symmetric_modes(dense_M, A).V;
+    if (V.size() == 0) refuse_indefinite("");
+    space_->replace(std::move(V));
+    project_from(0);
     return 0;
   }
 
-  // Forces that excite everything.
-  MatrixXd noise() const {
-    std::minstd_rand random;
-    const auto any = [&] { return static_cast<double>(random()) / std::minstd_rand::max() - 0.5; };
-    const VectorXd scale = (K_.ii.diagonal() + sigma_ * M_.ii.diagonal()).cwiseAbs().cwiseSqrt();
-    return scale.asDiagonal() * MatrixXd::NullaryExpr(parts_.others, parts_.kept, any);
-  }
-
   // What the last digits of the entries change, as far as the rows that are kept see it.
-  void add_rounding(Reduced& result) const {
-    const Index b = parts_.kept, z = P_.M_zz.rows();
+  Rounding rounding_of_entries() const {
+    if (!P_.is_finite()) refuse_overflow();
+    const Index b = parts_.kept, z = P_.coordinates();
     MatrixXd M = MatrixXd::Zero(b + z, b + z), A = MatrixXd::Identity(b + z, b + z);
     A.topLeftCorner(b, b) = P_.A_c;
-    M.topLeftCorner(b, b) = P_.M_c;
+    M.topLeftCorner(b, b) = P_.parts.front().c;
     if (z > 0) {
-      M.bottomRightCorner(z, z) = P_.M_zz;
-      M.bottomLeftCorner(z, b) = P_.M_zb;
-      M.topRightCorner(b, z) = P_.M_zb.transpose();
+      M.bottomRightCorner(z, z) = P_.parts.front().zz;
+      M.bottomLeftCorner(z, b) = P_.parts.front().zb;
+      M.topRightCorner(b, z) = P_.parts.front().zb.transpose();
     }
-    const auto modes = continuation::symmetric_modes(M, A);
+    const auto modes = large_symmetric_modes(M, A);
     if (modes.values.size() != b + z) refuse_indefinite("; it is not in the rows that the scene uses");
     const auto mode = [&](Index j) {
       const VectorXd v = modes.V.col(b + z - 1 - j);
       VectorXd x(b + parts_.others);
       x.head(b) = v.head(b);
-      if (parts_.others > 0) x.tail(parts_.others) = Psi_ * v.head(b) + V_ * v.tail(z);
+      if (parts_.others > 0) x.tail(parts_.others) = Psi_ * v.head(b) + space_->V() * v.tail(z);
       return x;
     };
     const Rounding found = rounding(matrices_, parts_, sigma_, b + z, mode);
-    if (!(found.change <= largest_error))
-      refuse("the last digits of their entries change the square of the lowest natural frequency by " +
-             text(found.change) + " of it, must be at most " + text(largest_error) +
-             "; replace very stiff links by rigid ones, and very short elements by longer ones");
-    result.error += found.change;
-    result.free_below = found.free_below;
-  }
-
-  static MatrixXd nearby(const MatrixXd& a, const MatrixXd& b) {
-    MatrixXd both(a.rows(), a.cols() + b.cols());
-    both << a, b;
-    return both;
-  }
-
-  // Appends to V what A^-1 right has next to it, in the norm of A. A V is kept: A times what is solved for is
-  // right itself, so that nothing cancels.
-  void append(MatrixXd right, Index most) {
-    listen(control_);
-    MatrixXd W = A_.solve(right);
-    listen(control_);
-    if (!W.allFinite()) refuse_overflow();
-    const VectorXd size = (W.array() * right.array()).colwise().sum().max(0.0).sqrt();
-    const auto take_out = [](const auto& V, const auto& AV, auto&& w, auto&& Aw) {
-      for (int pass = 0; pass < 2; ++pass) {
-        const MatrixXd shares = V.transpose() * Aw;
-        w -= V * shares;
-        Aw -= AV * shares;
-      }
-    };
-    take_out(V_, AV_, W, right);
-    const Index old = V_.cols();
-    V_.conservativeResize(Eigen::NoChange, old + W.cols());
-    AV_.conservativeResize(Eigen::NoChange, old + W.cols());
-    Index count = old;
-    for (Index j = 0; j < W.cols() && count < most; ++j) {
-      take_out(V_.middleCols(old, count - old), AV_.middleCols(old, count - old), W.col(j), right.col(j));
-      const auto length = [&] { return std::sqrt(std::max(W.col(j).dot(right.col(j)), 0.0)); };
-      double norm = length(), before = size[j];
-      while (norm < almost * before && norm > dependent * size[j]) {
-        // What remains of A w is rounding of what was taken out.
-        before = norm;
-        right.col(j) = K_.ii * W.col(j) + sigma_ * (M_.ii * W.col(j));
-        take_out(V_.leftCols(count), AV_.leftCols(count), W.col(j), right.col(j));
-        norm = length();
-      }
-      if (!(norm > dependent * size[j])) continue;
-      V_.col(count) = W.col(j) / norm;
-      AV_.col(count++) = right.col(j) / norm;
-    }
-    keep(count);
-    project_from(old);
+    return found;
   }
 
   // Onto the vectors of V from `old` on.
   void project_from(Index old) {
-    const Index count = V_.cols();
-    const auto added = V_.rightCols(count - old);
-    const auto extend = [&](MatrixXd& square, const MatrixXd& product, double sign = 1) {
-      const MatrixXd columns = V_.transpose() * product;
-      square.conservativeResize(count, count);
-      square.rightCols(count - old) = columns;
-      square.bottomRows(count - old) = sign * columns.transpose();
+    const Index count = space_->size();
+    const MatrixXd added = space_->V().rightCols(count - old);
+    for (std::size_t k = 0; k < operators_.size(); ++k) {
+      PartOfZ& to = P_.parts[k];
+      const double sign = to.sign();
+      const MatrixXd columns = transposed_product(space_->V(), MatrixXd(operators_[k].of.ii * added));
       const MatrixXd corner = columns.bottomRows(count - old);
-      square.bottomRightCorner(count - old, count - old) = 0.5 * (corner + sign * corner.transpose());
-    };
-    const auto extend_rows = [&](MatrixXd& rows, const MatrixXd& R) {
-      rows.conservativeResize(count, Eigen::NoChange);
-      rows.bottomRows(count - old) = added.transpose() * R;
-    };
-    extend(P_.M_zz, M_.ii * added);
-    extend_rows(P_.M_zb, R_);
-    extend_rows(P_.f_z, f_i_);
-    if (C_) {
-      extend(P_.C_zz, C_->ii * added);
-      extend_rows(P_.C_zb, R_C_);
+      to.zz.conservativeResize(count, count);
+      to.zz.rightCols(count - old) = columns;
+      to.zz.bottomRows(count - old) = sign * columns.transpose();
+      to.zz.bottomRightCorner(count - old, count - old) = 0.5 * (corner + sign * corner.transpose());
+      to.zb.conservativeResize(count, Eigen::NoChange);
+      to.zb.bottomRows(count - old) = transposed_product(added, operators_[k].R);
     }
-    if (K2_) {
-      extend(P_.K2_zz, K2_->ii * added);
-      extend_rows(P_.K2_zb, R_2_);
-    }
-    for (std::size_t k = 0; k < S_.size(); ++k) {
-      extend(P_.skew[k].zz, S_[k].ii * added, -1);
-      extend_rows(P_.skew[k].zb, R_S_[k]);
-    }
+    P_.f_z.conservativeResize(count, Eigen::NoChange);
+    P_.f_z.bottomRows(count - old) = transposed_product(added, f_i_);
   }
 
   // The first vectors alone.
   void keep(Index count) {
-    V_.conservativeResize(Eigen::NoChange, count);
-    AV_.conservativeResize(Eigen::NoChange, count);
-    if (P_.M_zz.rows() <= count) return;
-    for (MatrixXd* square : {&P_.M_zz, &P_.C_zz, &P_.K2_zz})
-      if (square->rows() > count) square->conservativeResize(count, count);
-    for (MatrixXd* rows : {&P_.M_zb, &P_.C_zb, &P_.K2_zb, &P_.f_z})
-      if (rows->rows() > count) rows->conservativeResize(count, Eigen::NoChange);
-    for (ProjectedSkew& skew : P_.skew) {
-      if (skew.zz.rows() > count) skew.zz.conservativeResize(count, count);
-      if (skew.zb.rows() > count) skew.zb.conservativeResize(count, Eigen::NoChange);
-    }
+    space_->keep(count);
+    P_.keep(count);
   }
 
   // In the eigenvectors of M_zz.
   void project(Reduced& into) const {
-    const Index b = parts_.kept, z = P_.M_zz.rows();
-    const auto put = [&](MatrixXd& whole, const MatrixXd& bb, const MatrixXd& zb) {
-      whole.setZero(b + z, b + z);
-      whole.topLeftCorner(b, b) = bb;
-      whole.bottomLeftCorner(z, b) = zb;
-      whole.topRightCorner(b, z) = zb.transpose();
-    };
-    into.loads = P_.f_c;
-    MatrixXd Q;  // eigenvectors of M_zz
-    if (z == 0) {
-      into.M = P_.M_c;
-      into.K = P_.A_c - sigma_ * P_.M_c;
-      if (C_) into.C = P_.C_c;
-      if (K2_) into.K2 = P_.K2_c;
-    } else {
-      continuation::SymmetricModes modes = continuation::symmetric_modes(P_.M_zz);
-      if (modes.values.size() != P_.M_zz.rows()) refuse_overflow();
-      const VectorXd& theta = modes.values;
+    const Index b = parts_.kept, z = P_.coordinates();
+    const PartOfZ& mass = P_.parts.front();
+    VectorXd theta(z);
+    MatrixXd Q(z, z);
+    if (z > 0) {
+      continuation::SymmetricModes modes = large_symmetric_modes(mass.zz);
+      if (modes.values.size() != z) refuse_overflow();
+      theta = modes.values.cwiseMax(0.0);
       Q = std::move(modes.V);
-      const MatrixXd mu = Q.transpose() * P_.M_zb;
-      put(into.M, P_.M_c, mu);
-      put(into.K, P_.A_c - sigma_ * P_.M_c, -sigma_ * mu);
-      into.M.diagonal().tail(z) = theta.cwiseMax(0.0);
-      into.K.diagonal().tail(z) = 1 - sigma_ * theta.cwiseMax(0.0).array();
-      const auto put_full = [&](MatrixXd& whole, const MatrixXd& c, const MatrixXd& zb, const MatrixXd& zz) {
-        put(whole, c, Q.transpose() * zb);
-        const MatrixXd in_modes = Q.transpose() * zz * Q;
-        whole.bottomRightCorner(z, z) = 0.5 * (in_modes + in_modes.transpose());
-      };
-      if (C_) put_full(into.C, P_.C_c, P_.C_zb, P_.C_zz);
-      if (K2_) put_full(into.K2, P_.K2_c, P_.K2_zb, P_.K2_zz);
-      into.loads.conservativeResize(b + z, Eigen::NoChange);
-      into.loads.bottomRows(z) = Q.transpose() * P_.f_z;
     }
-    if (K2_) into.K -= square_ * into.K2;
-    for (const ProjectedSkew& skew : P_.skew) {
-      MatrixXd& to =
-          skew.by_speed ? (skew.of_velocity ? into.G : into.N) : (skew.of_velocity ? into.C : into.K);
-      if (to.size() == 0) to.setZero(b + z, b + z);
-      to.topLeftCorner(b, b) += skew.c;
-      if (z == 0) continue;
-      const MatrixXd zb = Q.transpose() * skew.zb, zz = Q.transpose() * skew.zz * Q;
-      to.bottomLeftCorner(z, b) += zb;
-      to.topRightCorner(b, z) -= zb.transpose();
-      to.bottomRightCorner(z, z) += 0.5 * (zz - zz.transpose());
+    const auto add = [&](MatrixXd& whole, double factor, const PartOfZ& part) {
+      if (whole.size() == 0) whole.setZero(b + z, b + z);
+      whole.topLeftCorner(b, b) += factor * part.c;
+      if (z == 0) return;
+      const MatrixXd zb = factor * transposed_product(Q, part.zb);
+      whole.bottomLeftCorner(z, b) += zb;
+      whole.topRightCorner(b, z) += part.sign() * zb.transpose();
+      if (part.kind == Kind::mass) {
+        whole.diagonal().tail(z) += factor * theta;
+        return;
+      }
+      const MatrixXd zz = factor * transposed_product(Q, product(part.zz, Q));
+      whole.bottomRightCorner(z, z) += 0.5 * (zz + part.sign() * zz.transpose());
+    };
+    into.K.setZero(b + z, b + z);
+    into.K.topLeftCorner(b, b) = P_.A_c;
+    into.K.diagonal().tail(z).setOnes();
+    add(into.K, -sigma_, mass);
+    for (const PartOfZ& part : P_.parts) add(of_part(into, part), 1, part);
+    if (into.K2.size() > 0) into.K -= square_ * into.K2;
+    into.loads = P_.f_c;
+    into.loads.conservativeResize(b + z, Eigen::NoChange);
+    if (z > 0) into.loads.bottomRows(z) = transposed_product(Q, P_.f_z);
+  }
+
+  static MatrixXd& of_part(Reduced& of, const PartOfZ& part) {
+    switch (part.kind) {
+      case Kind::mass:
+        return of.M;
+      case Kind::damping:
+        return of.C;
+      case Kind::stiffening:
+        return of.K2;
+      case Kind::skew:
+        break;
     }
+    if (part.by_speed) return part.of_velocity ? of.G : of.N;
+    return part.of_velocity ? of.C : of.K;
   }
 
   const double square_;             // of the speed of the expansion
   const scene::Matrices matrices_;  // symmetric parts
   const std::vector<Skew> skew_;
-  const double highest_;
+  double accuracy_;
   const Index most_;
   const double sigma_;
-  const control::Control& control_;
   const Partition parts_;
-  const Blocks M_, K_;
-  std::optional<Blocks> C_, K2_;
-  std::vector<Blocks> S_;  // of skew_
-  MatrixXd f_b_, f_i_;     // loads
-  Cholesky A_;
-  MatrixXd Psi_, R_, R_C_, R_2_;  // R_C: C_ii Psi + C_ib; R_2: the same of K2
-  std::vector<MatrixXd> R_S_;     // of skew_
-  MatrixXd V_, AV_;
+  const Blocks K_;
+  std::vector<Operator> operators_;  // M, C, K2 and skew_, as the parts of P_
+  MatrixXd f_b_, f_i_;               // loads
+  Sparse A_ii_;
+  InteriorFactor factor_;
+  MatrixXd Psi_;
+  std::optional<EnergyBasis> space_;
+  std::vector<Block> blocks_;
+  Envelope reached_;          // of the space
+  double amplification_ = 4;  // ResidualBound::amplification, about
+  std::minstd_rand random_;
   Projected P_;
 };
 
@@ -530,7 +512,7 @@ Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, co
       [=](const control::Control& given_up) {
         return Reduction(matrices, kept, purpose, most, given_up).run();
       },
-      control, interrupted);
+      control, "interrupted while the structure was reduced");
 }
 
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, double highest,

@@ -1,0 +1,74 @@
+#include <arcslip/structure/interior_factor.hpp>
+
+#include <algorithm>
+#include <mutex>
+#include <new>
+
+#include <sys/mman.h>
+
+namespace arcslip::structure {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd;
+
+constexpr Index columns_at_once = 64;  // each takes memory of its own while it is solved for
+
+void listen(const control::Control& control) {
+  if (!control.keep_going()) throw control::Interrupted("interrupted while the structure was reduced");
+}
+
+// OpenBLAS takes 128 MB at its first use, and asks for them without an end where there are none.
+constexpr std::size_t memory_of_blas = std::size_t{168} << 20;  // bytes
+
+void require_memory_of_blas() {
+  static std::once_flag known;
+  std::call_once(known, [] {
+    void* const memory = ::mmap(nullptr, memory_of_blas, PROT_READ | PROT_WRITE,
+                                MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    ::munmap(memory, memory_of_blas);
+  });
+}
+
+}  // namespace
+
+std::optional<Index> InteriorFactor::Cholesky::failed_at() const {
+  if (m_cholmodFactor == nullptr || m_cholmodFactor->minor >= m_cholmodFactor->n) return {};
+  return static_cast<const int*>(m_cholmodFactor->Perm)[m_cholmodFactor->minor];
+}
+
+bool InteriorFactor::factorize(const Sparse& A) {
+  listen(control_);
+  of_.cholmod().print = 0;
+  // Minimum degree alone: METIS, which CHOLMOD also tries, takes SIGTERM for itself meanwhile.
+  of_.cholmod().nmethods = 1;
+  of_.cholmod().method[0].ordering = CHOLMOD_AMD;
+  require_memory_of_blas();
+  of_.compute(A);
+  listen(control_);
+  return of_.info() == Eigen::Success;
+}
+
+MatrixXd InteriorFactor::solve(const MatrixXd& right) const {
+  MatrixXd x(right.rows(), right.cols());
+  for (Index from = 0; from < right.cols(); from += columns_at_once) {
+    listen(control_);
+    const Index count = std::min(columns_at_once, right.cols() - from);
+    x.middleCols(from, count) = of_.solve(MatrixXd(right.middleCols(from, count)));
+  }
+  listen(control_);
+  return x;
+}
+
+MatrixXd InteriorFactor::solve(const Sparse& right) const {
+  MatrixXd x(right.rows(), right.cols());
+  for (Index from = 0; from < right.cols(); from += columns_at_once) {
+    listen(control_);
+    const Index count = std::min(columns_at_once, right.cols() - from);
+    x.middleCols(from, count) = of_.solve(MatrixXd(right.middleCols(from, count)));
+  }
+  listen(control_);
+  return x;
+}
+
+}  // namespace arcslip::structure
