@@ -2,7 +2,7 @@
 #include "catch.hpp"
 #include "environment.hpp"
 
-#include "continuation/hopf_problems.hpp"
+#include "continuation/events/hopf_problems.hpp"
 #include "lib/laws/coupled_spring.hpp"
 
 #include <arcslip/continuation/correction/corrector.hpp>

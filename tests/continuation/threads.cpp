@@ -3,7 +3,7 @@
 
 #include "catch.hpp"
 
-#include "continuation/hopf_problems.hpp"
+#include "continuation/events/hopf_problems.hpp"
 
 #include <arcslip/continuation/diagrams/diagram.hpp>
 #include <arcslip/continuation/events/hopf.hpp>

@@ -14,9 +14,9 @@
 #include "lib/scene/files/mat_mutants.hpp"
 #include "lib/scene/format/bad_scenes.hpp"
 #include "lib/studies/mode_accuracy.hpp"
-#include "optimize/limited_searches.hpp"
-#include "optimize/random_optima.hpp"
-#include "optimize/tolerance_ranges.hpp"
+#include "optimize/certificate/tolerance_ranges.hpp"
+#include "optimize/search/limited_searches.hpp"
+#include "optimize/search/random_optima.hpp"
 
 #include <arcslip/results/text.hpp>
 

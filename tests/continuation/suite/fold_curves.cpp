@@ -2,9 +2,9 @@
 
 #include "catch.hpp"
 
+#include "continuation/linear/users_solvers.hpp"
 #include "continuation/suite/cases.hpp"
 #include "continuation/suite/problems.hpp"
-#include "continuation/users_solvers.hpp"
 
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 #include <arcslip/continuation/problem/jacobian_check.hpp>

@@ -2,8 +2,8 @@
 // Problems whose folds and branch points are known, from closed forms or from the literature, most of them
 // with a sparse Jacobian.
 
+#include "continuation/linear/users_solvers.hpp"
 #include "continuation/suite/cases.hpp"
-#include "continuation/users_solvers.hpp"
 
 #include <cmath>
 #include <functional>

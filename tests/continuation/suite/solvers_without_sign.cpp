@@ -3,9 +3,9 @@
 
 #include "catch.hpp"
 
+#include "continuation/linear/users_solvers.hpp"
 #include "continuation/suite/cases.hpp"
 #include "continuation/suite/known_points.hpp"
-#include "continuation/users_solvers.hpp"
 
 #include <arcslip/continuation/diagrams/diagram.hpp>
 #include <arcslip/continuation/tracing/state.hpp>

@@ -4,7 +4,7 @@
 #include "catch.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
-#include "optimize/optimum_curves.hpp"
+#include "optimize/curve/optimum_curves.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "catch.hpp"
 
-#include "optimize/limited_searches.hpp"
-#include "optimize/random_limits.hpp"
+#include "optimize/search/limited_searches.hpp"
+#include "optimize/search/random_limits.hpp"
 
 #include <arcslip/optimize/evaluation/reasons.hpp>
 

@@ -1,6 +1,6 @@
 // Diagrams of branches that cross: each branch once, compared with closed forms.
 
-#include "continuation/diagram_problems.hpp"
+#include "continuation/diagrams/diagram_problems.hpp"
 
 #include <numbers>
 

@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 
-#include "continuation/hopf_problems.hpp"
+#include "continuation/events/hopf_problems.hpp"
 
 #include <arcslip/continuation/events/hopf.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>

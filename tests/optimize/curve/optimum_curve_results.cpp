@@ -3,7 +3,7 @@
 #include "catch.hpp"
 #include "contains.hpp"
 
-#include "optimize/optimum_curves.hpp"
+#include "optimize/curve/optimum_curves.hpp"
 
 #include <arcslip/optimize/study/optimum_figures.hpp>
 #include <arcslip/optimize/study/optimum_results.hpp>

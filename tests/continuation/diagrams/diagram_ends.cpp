@@ -1,6 +1,6 @@
 // Diagrams that are not complete, that are stopped or refused, and what they say.
 
-#include "continuation/diagram_problems.hpp"
+#include "continuation/diagrams/diagram_problems.hpp"
 
 using namespace problems;
 

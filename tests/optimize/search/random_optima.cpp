@@ -6,7 +6,7 @@
 
 #include "lib/hbm/random_scenes.hpp"
 #include "lib/hbm/scenes.hpp"
-#include "optimize/random_optima.hpp"
+#include "optimize/search/random_optima.hpp"
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/optimize/evaluation/reasons.hpp>

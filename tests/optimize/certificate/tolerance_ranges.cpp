@@ -5,7 +5,7 @@
 #include "random.hpp"
 
 #include "lib/hbm/scenes.hpp"
-#include "optimize/tolerance_ranges.hpp"
+#include "optimize/certificate/tolerance_ranges.hpp"
 
 #include <arcslip/optimize/search/optimum.hpp>
 

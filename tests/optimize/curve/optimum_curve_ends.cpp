@@ -4,7 +4,7 @@
 #include "contains.hpp"
 
 #include "lib/analyses/responses/reference.hpp"
-#include "optimize/optimum_curves.hpp"
+#include "optimize/curve/optimum_curves.hpp"
 
 #include <arcslip/analyses/responses/parameter_response.hpp>
 

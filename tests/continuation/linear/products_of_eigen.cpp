@@ -1,4 +1,4 @@
-#include "continuation/products_of_eigen.hpp"
+#include "continuation/linear/products_of_eigen.hpp"
 
 #include <complex>
 

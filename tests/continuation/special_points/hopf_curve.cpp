@@ -1,6 +1,6 @@
 #include "catch.hpp"
 
-#include "continuation/hopf_problems.hpp"
+#include "continuation/events/hopf_problems.hpp"
 
 #include <arcslip/continuation/events/hopf.hpp>
 #include <arcslip/continuation/problem/jacobian_check.hpp>

@@ -2,7 +2,7 @@
 
 #include "catch.hpp"
 
-#include "continuation/branch_point_problems.hpp"
+#include "continuation/special_points/branch_point_problems.hpp"
 
 #include <numbers>
 

@@ -1,7 +1,7 @@
 #include <arcslip/continuation/linear/compiled_products.hpp>
 
 #include "catch.hpp"
-#include "continuation/products_of_eigen.hpp"
+#include "continuation/linear/products_of_eigen.hpp"
 
 #include <complex>
 #include <cstring>

@@ -1,6 +1,6 @@
 // Branch points of even multiplicity, and several in one step: found, switched at, or named as missing.
 
-#include "continuation/diagram_problems.hpp"
+#include "continuation/diagrams/diagram_problems.hpp"
 
 #include <arcslip/continuation/special_points/multiple_point.hpp>
 

@@ -1,6 +1,6 @@
 #include "catch.hpp"
 
-#include "continuation/bordered.hpp"
+#include "continuation/linear/bordered.hpp"
 
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 

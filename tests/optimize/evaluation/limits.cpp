@@ -3,7 +3,7 @@
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
-#include "optimize/random_limits.hpp"
+#include "optimize/search/random_limits.hpp"
 
 #include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/optimize/search/optimum.hpp>

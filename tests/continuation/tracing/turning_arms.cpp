@@ -1,6 +1,6 @@
 // Branches that turn where another one crosses them: a branch point, and no fold.
 
-#include "continuation/diagram_problems.hpp"
+#include "continuation/diagrams/diagram_problems.hpp"
 
 #include <Eigen/LU>
 
