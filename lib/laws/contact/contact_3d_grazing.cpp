@@ -41,6 +41,7 @@ class Contact3dCorners final : public Corners {
         normal_(h),
         disc_(h),
         stretch_(h),
+        centre_(h),
         w_(3 * c_),
         radius_(c_),
         phi_(c_),
@@ -99,7 +100,8 @@ class Contact3dCorners final : public Corners {
     double limit = most;
     if (!normal_.opens()) {
       // Where a rest of the whole period is almost possible all slips are short, and this is their corner.
-      const StickCentre& centre = stretch_.phases().centre();
+      centre_.find(disc_);
+      const StickCentre& centre = centre_;
       limit = std::min(most, fields_[contact_field::tangential_stiffness] * std::abs(centre.r()));
       if (centre.active().size() == 2) add(stick_of_two, centre.active(), most);
       if (centre.active().size() == 3) add(stick_of_three, centre.active(), most);
@@ -356,6 +358,7 @@ class Contact3dCorners final : public Corners {
   NormalContact normal_;
   Disc disc_;
   DiscStretch stretch_;
+  StickCentre centre_;
   Eigen::VectorXd w_, radius_, phi_, slope_;
   Eigen::MatrixXd rows_, dw_;
 };

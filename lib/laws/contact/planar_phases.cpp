@@ -13,12 +13,16 @@ namespace arcslip::elements {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double resolved = 1e-10;      // of h psi within a panel, of the largest radius
-constexpr double same_slider = 1e-13;   // of the motion
-constexpr double shortest = 1e-12;      // rad: a panel that is not divided any further
-constexpr double same_end = 1e-6;       // rad: slip that ends so near to the end of the period began it
-constexpr double edge = 1e-12;          // of the radius: a slider that is so close is at the edge
-constexpr double phase_per_panel = 12;  // rad, of the highest harmonic
+constexpr double resolved = 1e-8;      // of h psi within a panel, of the largest radius
+constexpr double same_slider = 1e-13;  // of the motion
+constexpr double same_end = 1e-6;      // rad: slip that ends so near to the end of the period began it
+constexpr double edge = 1e-12;         // of the radius: a slider that is so close is at the edge
+constexpr double clear_slip = 1e-3;    // of the motion
+constexpr double first_turn = 2.5;     // rad
+constexpr double least_first = 1e-3;   // of the longest panel
+constexpr double exact_end = 1e-10;    // of the length of the panel where slip ends
+constexpr int end_steps = 5;
+constexpr double phase_per_panel = 4;  // rad, of the highest harmonic
 constexpr std::size_t most_panels = 20000;
 constexpr int rest_newton_steps = 40, rest_passes = 200;
 constexpr double shortest_share = 0.01;  // of Newton's step
@@ -41,10 +45,11 @@ DiscPhases::DiscPhases(const Harmonics& harmonics)
     : harmonics_(harmonics), centre_(harmonics), longest_(phase_per_panel / harmonics.order) {
   phases_.reserve(static_cast<std::size_t>(16 * harmonics.order + 64));
   panels_.reserve(static_cast<std::size_t>(8 * harmonics.order + 64));
-}
-
-Eigen::Vector2d DiscPhases::slider(const DiscPoint& at, const State& state) const {
-  return state.slips ? Eigen::Vector2d(at.x - std::max(at.h, 0.0) * direction(state.psi)) : state.w;
+  before_.reserve(panels_.capacity());
+  const int count = 4 * harmonics.order + 12;
+  for (int k = 0; k < count; ++k)
+    samples_.emplace_back(std::cos(whole_turn * k / count), std::sin(whole_turn * k / count));
+  instants_.resize(samples_.size());
 }
 
 DiscPhases::State DiscPhases::closing(const Disc& disc, double theta) const {
@@ -116,57 +121,115 @@ double DiscPhases::root_in(const Disc& disc, const SlipPanel& panel, const Brack
   return std::min(root, panel.theta[panel_nodes - 1]);
 }
 
+// The panel of the march before that has an angle in it, or begins soon after.
+const SlipPanel* DiscPhases::known_near(double theta) {
+  while (cursor_ < before_.size() && before_[cursor_].end <= theta + 0.2 * before_[cursor_].length())
+    ++cursor_;
+  if (cursor_ == before_.size() || before_[cursor_].begin > theta + 0.2 * before_[cursor_].length())
+    return nullptr;
+  return &before_[cursor_];
+}
+
+// Over which the direction of slip may turn by about one rad.
+double DiscPhases::first_length(const Disc& disc, double theta) const {
+  const DiscPoint p = disc.at(theta);
+  const double speed = p.v.norm(), rate = std::abs(p.dh), width = std::max(p.h, 0.0);
+  const double slowest =
+      (speed > 0 ? p.a.norm() / speed : 0) + (width > 0 ? (speed + rate) / (width + 0.5 * rate) : 0);
+  return slowest > 0 ? std::clamp(first_turn / slowest, least_first * longest_, longest_) : longest_;
+}
+
+double DiscPhases::solve(const Disc& disc, const SlipPanel* known, double theta, double to, double psi) {
+  SlipPanel& panel = panels_.back();
+  if (known != nullptr) {
+    const double tail = collocation_.solve_near(disc, *known, theta, to, psi, tolerance_, panel);
+    if (tail <= tolerance_) return tail;
+  }
+  return collocation_.solve(disc, theta, to, psi, tolerance_, panel);
+}
+
+// Makes the last panel end where slip ends, which is near an angle. False: it could not be followed so far.
+bool DiscPhases::close_slip(const Disc& disc, double root) {
+  for (int i = 0; i < end_steps; ++i) {
+    const SlipPanel known = panels_.back();
+    SlipPanel& panel = panels_.back();
+    const double tail =
+        collocation_.solve_near(disc, known, known.begin, root, known.from, tolerance_, panel);
+    if (!(tail <= tolerance_)) return false;
+    const double spare = panel.spare[panel_nodes - 1], gain = panel.gain[panel_nodes - 1];
+    const double step = gain < 0 ? -spare / gain : 0;
+    if (std::abs(step) <= std::max(exact_end * panel.length(), 1e-14)) return true;
+    if (!(std::abs(step) <= 1e-2 * panel.length())) return true;
+    root += step;
+  }
+  return true;
+}
+
+// Adds a panel that begins at theta, in the direction psi. False: it is too long, and the next one should
+// have the length that is left in `length`, as after success; 0: that of the march before, or a guess.
+bool DiscPhases::add_panel(const Disc& disc, double theta, double end, double psi, Lengths& lengths) {
+  const SlipPanel* known = lengths.next > 0 ? nullptr : known_near(theta);
+  if (lengths.next == 0 && known == nullptr) lengths.next = first_length(disc, theta);
+  double to = known != nullptr ? known->end : theta + lengths.next;
+  if (end - to < 1e-3 * (to - theta)) to = end;
+  panels_.emplace_back();
+  const double tail = solve(disc, known, theta, to, psi);
+  const bool good = tail <= tolerance_;
+  // The tail falls like the power of the number of nodes.
+  const double ratio = std::pow(std::max(tail, 1e-6 * tolerance_) / tolerance_, -1.0 / panel_nodes);
+  const double next = std::clamp(0.9 * ratio, 0.3, 3.0) * (to - theta);
+  lengths.held = !good && (to - theta < lengths.least || panels_.size() > most_panels);
+  if (!good && !lengths.held) {
+    panels_.pop_back();
+    lengths.next = std::min(next, 0.7 * (to - theta));
+    return false;
+  }
+  if (lengths.held) {  // in the direction of the motion, for ever longer
+    const DiscPoint at = disc.at(theta);
+    const double along = at.v.norm() > 0 ? std::atan2(at.v[1], at.v[0]) : psi;
+    collocation_.hold(disc, theta, to, along, panels_.back());
+    lengths.least *= 10;
+  }
+  if (lengths.held)
+    lengths.next = longest_;
+  else
+    lengths.next = before_.empty() ? std::min(next, longest_) : 0;
+  return true;
+}
+
+// The integral of (x'.n - h')/h over a panel.
+double DiscPhases::decay_exponent(const SlipPanel& panel) const {
+  const SlipPanel::Nodes weights = collocation_.weights(panel);
+  double exponent = 0;
+  for (int j = 0; j < panel_nodes; ++j)
+    exponent += panel.h[j] > 0 ? weights[j] * panel.spare[j] / panel.h[j] : never;
+  return std::max(exponent, 0.0);
+}
+
 // From the state at `begin` until slip ends, or to `end`. decay: of a change of w across n.
 double DiscPhases::slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends) {
-  double theta = begin, length = longest_, least = shortest;
+  double theta = begin, exponent = 0;
+  Lengths lengths;
   ends = false;
-  decay = 1;
-  while (theta < end) {
-    SlipPanel panel;
-    double to = std::min(theta + length, end);
-    if (end - to < 1e-3 * length) to = end;
-    const double tail = collocation_.solve(disc, theta, to, state.psi, tolerance_, panel);
-    const bool good = tail <= tolerance_;
-    // The tail falls like the power of the number of nodes.
-    const double ratio = std::pow(std::max(tail, 1e-6 * tolerance_) / tolerance_, -1.0 / panel_nodes);
-    const double next = std::clamp(0.9 * ratio, 0.3, 3.0) * (to - theta);
-    const bool held = !good && (to - theta < least || panels_.size() > most_panels);
-    if (!good && !held) {
-      length = std::min(next, 0.7 * (to - theta));
-      continue;
-    }
-    if (held) {  // in the direction of the motion, for ever longer
-      const DiscPoint at = disc.at(theta);
-      collocation_.hold(disc, theta, to, at.v.norm() > 0 ? std::atan2(at.v[1], at.v[0]) : state.psi, panel);
-      least *= 10;
-    }
-    const auto bracket = held ? std::nullopt : end_of_slip(disc, panel);
-    if (bracket) {
-      const double root = root_in(disc, panel, *bracket);
-      ends = true;
-      if (root - theta <= 1e-13) return theta;
-      SlipPanel shorter;
-      if (collocation_.solve(disc, theta, root, state.psi, tolerance_, shorter))
-        panel = shorter;
-      else
-        ends = false;
+  while (theta < end && !ends) {
+    if (!add_panel(disc, theta, end, state.psi, lengths)) continue;
+    if (const auto bracket = lengths.held ? std::nullopt : end_of_slip(disc, panels_.back())) {
+      const double root = root_in(disc, panels_.back(), *bracket);
+      const bool at_once = root - theta <= 1e-13;
+      ends = at_once || close_slip(disc, root);
+      if (at_once || !ends) panels_.pop_back();
+      if (at_once) break;
       if (!ends) {  // the continuation beyond the end is hard to follow
-        length = 0.5 * (root - theta);
+        lengths.next = 0.5 * (root - theta);
         continue;
       }
     }
-    panels_.push_back(panel);
-    const SlipPanel::Nodes weights = collocation_.weights(panel);
-    double exponent = 0;
-    for (int j = 0; j < panel_nodes; ++j)
-      exponent += panel.h[j] > 0 ? weights[j] * panel.spare[j] / panel.h[j] : never;
-    decay *= std::exp(-std::max(exponent, 0.0));
-    theta = panel.end;
-    state.psi = panel.to();
-    if (ends) return theta;
-    length = held ? longest_ : std::min(next, longest_);
+    exponent += decay_exponent(panels_.back());
+    theta = panels_.back().end;
+    state.psi = panels_.back().to();
   }
-  return end;
+  decay = std::exp(-exponent);
+  return ends ? theta : end;
 }
 
 // Adds the phases of an interval in contact. by: the derivative of w, which is multiplied.
@@ -202,9 +265,7 @@ void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, do
     }
     phase.state = DiscPhase::State::slip;
     phase.first_panel = panels_.size();
-    const DiscPoint onset_point = disc.at(theta);
     const double psi = state.psi;
-    const Eigen::Vector2d before = slider(onset_point, state);
     double decay = 1;
     bool ends = false;
     const double until = slip(disc, state, theta, end, decay, ends);
@@ -213,8 +274,8 @@ void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, do
     const DiscPoint p = disc.at(until);
     if (by != nullptr && until > theta) *by = decay * across(state.psi) * across(psi).transpose() * *by;
     if (until > theta) {
-      state.moved += phase.last_panel == phase.first_panel + 1 ? displacement(panels_.back())
-                                                               : slider(p, state) - before;
+      for (std::size_t k = phase.first_panel; k < phase.last_panel; ++k)
+        state.moved += displacement(panels_[k]);
       phases_.push_back(phase);
     }
     if (end - until < (closes ? same_end : negligible_slip)) return;
@@ -237,7 +298,9 @@ Eigen::Vector2d DiscPhases::displacement(const SlipPanel& panel) const {
 
 DiscPhases::Period DiscPhases::period(const Disc& disc, double begin, const Eigen::Vector2d& w) {
   phases_.clear();
+  panels_.swap(before_);
   panels_.clear();
+  cursor_ = 0;
   State state = at_rest(disc, begin, w);
   Period map{{0, 0}, Eigen::Matrix2d::Identity()};
   march(disc, state, DiscPhase::Begin::start, begin, begin + whole_turn, &map.by);
@@ -277,12 +340,71 @@ double DiscPhases::iterate(const Disc& disc, double enough, Eigen::Vector2d& w) 
   return left;
 }
 
-void DiscPhases::find_periodic(const Disc& disc) {
+// Whether a pair of instants excludes full stick by far, without the centre.
+bool DiscPhases::surely_slips(const Disc& disc) {
+  for (std::size_t k = 0; k < samples_.size(); ++k) {
+    const DiscPoint at = disc.at(samples_[k].first, samples_[k].second);
+    instants_[k] = {0, at.x, at.h};
+  }
+  short_of_stick_ = 0;
+  std::size_t first = 0, second = 0;
+  for (std::size_t i = 0; i < instants_.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double apart = instants_[i].h + instants_[j].h + 2 * short_of_stick_;
+      const double square = (instants_[i].x - instants_[j].x).squaredNorm();
+      if (!(apart > 0) || !(square > apart * apart)) continue;
+      short_of_stick_ = 0.5 * (std::sqrt(square) - instants_[i].h - instants_[j].h);
+      first = i;
+      second = j;
+    }
+  if (!(short_of_stick_ > clear_slip * (disc.motion_bound(0) + disc.largest()))) return false;
+  start_ = stick_margin(instants_[first], instants_[second]).w;
+  return true;
+}
+
+// Turns the list so that it begins where slip ends, if the phase in which the period began is the same before
+// and after.
+bool DiscPhases::begin_at_slip_end() {
+  const auto rest = std::find_if(phases_.begin(), phases_.end(), [](const DiscPhase& phase) {
+    return phase.from == DiscPhase::Begin::slip_end;
+  });
+  DiscPhase &first = phases_.front(), &last = phases_.back();
+  if (rest == phases_.end() || phases_.size() < 2 || last.state != first.state) return false;
+  const bool slips = first.state == DiscPhase::State::slip;
+  const auto turned = static_cast<std::size_t>(rest - phases_.begin());
+  std::size_t moved = 0;  // panels
+  for (std::size_t k = 0; k < turned; ++k)
+    if (phases_[k].state == DiscPhase::State::slip) moved = phases_[k].last_panel;
+  const double psi = slips ? panels_.back().to() - panels_.front().from : 0;
+  for (std::size_t k = 0; k < moved; ++k)
+    panels_[k].shift(whole_turn, whole_turn * std::round(psi / whole_turn));
+  std::rotate(panels_.begin(), panels_.begin() + static_cast<std::ptrdiff_t>(moved), panels_.end());
+  const std::size_t stay = panels_.size() - moved;
+  for (std::size_t k = 0; k < phases_.size(); ++k) {
+    DiscPhase& phase = phases_[k];
+    if (k < turned) {
+      phase.begin += whole_turn;
+      phase.end += whole_turn;
+    }
+    if (phase.state != DiscPhase::State::slip) continue;
+    phase.first_panel = k < turned ? phase.first_panel + stay : phase.first_panel - moved;
+    phase.last_panel = k < turned ? phase.last_panel + stay : phase.last_panel - moved;
+  }
+  last.end = first.end;
+  if (slips) last.last_panel = first.last_panel;
+  std::rotate(phases_.begin(), phases_.begin() + static_cast<std::ptrdiff_t>(turned), phases_.end());
+  // The first phase, which is the continuation of the last one, stands after it.
+  phases_.erase(phases_.end() - static_cast<std::ptrdiff_t>(turned));
+  return true;
+}
+
+void DiscPhases::find_periodic(const Disc& disc, bool near_stick) {
   const double size = disc.motion_bound(0) + disc.radius_bound(0), same = same_slider * size;
-  Eigen::Vector2d w = at_rest(disc, 0, centre_.w()).w;
+  Eigen::Vector2d w = at_rest(disc, 0, start_).w;
   const double error = iterate(disc, same, w);
   periodic_ = error <= 1e3 * same;
-  // Once more from the end of slip.
+  if (periodic_ && !near_stick && begin_at_slip_end()) return;
+  // Once more from the end of slip: next to full stick it is more exact.
   const auto rest = std::find_if(phases_.begin(), phases_.end(), [](const DiscPhase& phase) {
     return phase.from == DiscPhase::Begin::slip_end;
   });
@@ -290,13 +412,17 @@ void DiscPhases::find_periodic(const Disc& disc) {
     if (phases_.size() == 1 || panels_.empty()) return;
     State state{true, w, panels_.back().to()};
     phases_.clear();
+    panels_.swap(before_);
     panels_.clear();
+    cursor_ = 0;
     march(disc, state, DiscPhase::Begin::start, 0, whole_turn, nullptr);
     return;
   }
   const DiscPhase first = *rest;
   phases_.clear();
   panels_.clear();
+  before_.clear();
+  cursor_ = 0;
   State state{false, first.w, 0};
   march(disc, state, DiscPhase::Begin::slip_end, first.begin, first.begin + whole_turn, nullptr);
 }
@@ -306,6 +432,8 @@ const std::vector<DiscPhase>& DiscPhases::find(const Disc& disc,
                                                bool opens) {
   phases_.clear();
   panels_.clear();
+  before_.clear();
+  cursor_ = 0;
   full_stick_ = false;
   short_of_stick_ = 0;
   periodic_ = true;
@@ -325,15 +453,21 @@ const std::vector<DiscPhase>& DiscPhases::find(const Disc& disc,
     }
     return phases_;
   }
+  if (surely_slips(disc)) {
+    find_periodic(disc, false);
+    return phases_;
+  }
   centre_.find(disc);
   full_stick_ = centre_.r() <= same_slider * disc.motion_bound(0);
   if (full_stick_) {
+    short_of_stick_ = 0;
     DiscPhase phase{DiscPhase::State::stick, DiscPhase::Begin::start, 0, whole_turn};
     phase.w = centre_.w();
     phases_.push_back(phase);
   } else {
     short_of_stick_ = centre_.r();
-    find_periodic(disc);
+    start_ = centre_.w();
+    find_periodic(disc, true);
   }
   return phases_;
 }

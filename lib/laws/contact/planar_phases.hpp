@@ -47,8 +47,8 @@ class DiscPhases {
   // Of the last search.
   const std::vector<DiscPhase>& list() const { return phases_; }
   bool full_stick() const { return full_stick_; }
-  const StickCentre& centre() const { return centre_; }
-  /// By how much the radius falls short of full stick, if the contact never opens; else 0.
+  const StickCentre& centre() const { return centre_; }  // of full stick
+  /// By how much at least the radius falls short of full stick, if the contact never opens; else 0.
   double short_of_stick() const { return short_of_stick_; }
   const SlipPanel& panel(std::size_t k) const { return panels_[k]; }
   const SlipCollocation& collocation() const { return collocation_; }
@@ -73,29 +73,45 @@ class DiscPhases {
     Eigen::Matrix2d by;     // dw at the end by w at the beginning
   };
 
+  struct Lengths {                   // of panels, rad
+    double next = 0, least = 1e-12;  // the least is not divided any further
+    bool held = false;
+  };
+
   struct Bracket {
     double below, f_below, above, f_above;
   };
 
   State closing(const Disc& disc, double theta) const;
   State at_rest(const Disc& disc, double theta, const Eigen::Vector2d& w) const;
-  Eigen::Vector2d slider(const DiscPoint& at, const State& state) const;
   void march(const Disc& disc, State& state, DiscPhase::Begin from, double begin, double end,
              Eigen::Matrix2d* by);
   std::pair<double, double> spare(const Disc& disc, const SlipPanel& panel, double theta) const;
   std::optional<Bracket> end_of_slip(const Disc& disc, const SlipPanel& panel) const;
   double root_in(const Disc& disc, const SlipPanel& panel, const Bracket& bracket) const;
+  bool add_panel(const Disc& disc, double theta, double end, double psi, Lengths& lengths);
+  double decay_exponent(const SlipPanel& panel) const;
+  const SlipPanel* known_near(double theta);
+  double first_length(const Disc& disc, double theta) const;
+  double solve(const Disc& disc, const SlipPanel* known, double theta, double to, double psi);
+  bool close_slip(const Disc& disc, double root);
   double slip(const Disc& disc, State& state, double begin, double end, double& decay, bool& ends);
   Eigen::Vector2d displacement(const SlipPanel& panel) const;
   Period period(const Disc& disc, double begin, const Eigen::Vector2d& w);
   double iterate(const Disc& disc, double enough, Eigen::Vector2d& w);
-  void find_periodic(const Disc& disc);
+  bool surely_slips(const Disc& disc);
+  bool begin_at_slip_end();
+  void find_periodic(const Disc& disc, bool near_stick);
 
   Harmonics harmonics_;
   SlipCollocation collocation_;
   StickCentre centre_;
+  Eigen::Vector2d start_ = Eigen::Vector2d::Zero();  // of the search for a slider that slips
+  std::vector<std::pair<double, double>> samples_;   // cosine and sine of some angles
+  std::vector<DiscInstant> instants_;                // there
   std::vector<DiscPhase> phases_;
-  std::vector<SlipPanel> panels_;
+  std::vector<SlipPanel> panels_, before_;  // of this march and of the one before, of the same motion
+  std::size_t cursor_ = 0;                  // in before_
   double tolerance_ = 0, longest_ = 0, short_of_stick_ = 0;
   bool full_stick_ = false, periodic_ = true, opens_ = false;
 };

@@ -21,7 +21,10 @@ void Disc::set(In x_1, In x_2, In h) {
 }
 
 DiscPoint Disc::at(double theta) const {
-  const double c_1 = std::cos(theta), s_1 = std::sin(theta);
+  return at(std::cos(theta), std::sin(theta));
+}
+
+DiscPoint Disc::at(double c_1, double s_1) const {
   const int order = harmonics_.order;
   double c = c_1, s = s_1, value[3], d1[3] = {}, d2[3] = {};
   for (int i = 0; i < 3; ++i) value[i] = u_(0, i);

@@ -29,6 +29,7 @@ class Disc {
   const Harmonics& harmonics() const { return harmonics_; }
   auto coefficients(int i) const { return u_.col(i); }  // of x_1, x_2, h
   DiscPoint at(double theta) const;
+  DiscPoint at(double cosine, double sine) const;  // of the angle
   Eigen::Vector2d mean() const { return {u_(0, 0), u_(0, 1)}; }
   double largest() const { return largest_; }  // a bound of |h|
   /// A bound of the derivative of this order, 0 to 3: of |x| (without the mean), and of |h|.

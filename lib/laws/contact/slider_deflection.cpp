@@ -70,17 +70,17 @@ void DiscStretch::integrate_basis(double begin, double end) {
 }
 
 void DiscStretch::set_bases(const SlipPanel& panel) {
-  for (int j = 0; j < panel_nodes; ++j) {
-    powers(panel.theta[j], h_.order + 1, middle_.data());
-    phi_(j, 0) = 1;
-    slope_(j, 0) = 0;
-    for (int n = 1; n <= h_.order; ++n) {
-      const std::complex<double> z = middle_[static_cast<std::size_t>(n)];
-      phi_(j, n) = z.real();
-      phi_(j, h_.order + n) = z.imag();
-      slope_(j, n) = -n * z.imag();
-      slope_(j, h_.order + n) = n * z.real();
-    }
+  SlipPanel::Nodes cosine = panel.cosine, sine = panel.sine;
+  phi_.col(0).setOnes();
+  slope_.col(0).setZero();
+  for (int n = 1; n <= h_.order; ++n) {
+    phi_.col(n) = cosine;
+    phi_.col(h_.order + n) = sine;
+    slope_.col(n) = -n * sine;
+    slope_.col(h_.order + n) = n * cosine;
+    const SlipPanel::Nodes next = cosine.cwiseProduct(panel.cosine) - sine.cwiseProduct(panel.sine);
+    sine = sine.cwiseProduct(panel.cosine) + cosine.cwiseProduct(panel.sine);
+    cosine = next;
   }
 }
 
@@ -102,10 +102,10 @@ void DiscStretch::integrate() {
       const SlipPanel& panel = phases_.panel(k);
       const SlipPanel::Nodes weights = fourier_factor * phases_.collocation().weights(panel);
       set_bases(panel);
-      for (int j = 0; j < panel_nodes; ++j) {
-        const double factor = weights[j] * panel.h[j];
-        for (int i = 0; i < 2; ++i)
-          S_.segment(i * c_, c_) += factor * outward(i, panel.psi[j]) * phi_.row(j).transpose();
+      const SlipPanel::Nodes width = weights.cwiseProduct(panel.h);
+      for (int i = 0; i < 2; ++i) {
+        const SlipPanel::Nodes stretch = width.cwiseProduct(panel.outward[i]);
+        for (Eigen::Index j = 0; j < c_; ++j) S_[i * c_ + j] += stretch.dot(phi_.col(j));
       }
     }
   }
@@ -225,32 +225,28 @@ void DiscStretch::slip(const DiscPhase& phase) {
     auto rows = rows_.middleRows(filled_, panel_nodes);
     auto weighted = weighted_.middleRows(filled_, panel_nodes);
     filled_ += panel_nodes;
-    SlipPanel::Nodes t[2], n[2];
-    for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < panel_nodes; ++j) {
-        t[i][j] = tangent(i, panel.psi[j]);
-        n[i][j] = outward(i, panel.psi[j]);
-      }
     for (int i = 0; i < 2; ++i) {
-      rows.middleCols(i * c_, c_) = t[i].asDiagonal() * slope_;
-      weighted.middleCols(i * c_, c_) = weights.cwiseProduct(panel.h).cwiseProduct(t[i]).asDiagonal() * phi_;
+      const SlipPanel::Nodes share = weights.cwiseProduct(panel.h).cwiseProduct(panel.turn[i]);
+      rows.middleCols(i * c_, c_) = panel.turn[i].asDiagonal() * slope_;
+      weighted.middleCols(i * c_, c_) = share.asDiagonal() * phi_;
     }
     rows.middleCols(2 * c_, c_) = -(panel.rate.asDiagonal() * phi_);
     rows.rightCols(2).setZero();
     rows.noalias() -= phases_.collocation().column(panel) * dpsi_;
-    const auto lu = phases_.collocation().matrix(panel).partialPivLu();
-    rows.applyOnTheLeft(lu.permutationP());
-    lu.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(rows);
-    lu.matrixLU().triangularView<Eigen::Upper>().solveInPlace(rows);
-    dpsi_ = rows.row(panel_nodes - 1);
-    for (int j = 0; j < panel_nodes; ++j) {
-      powers(panel.theta[j], slipping_[0].count(), middle_.data());
-      for (int i = 0; i < 2; ++i)
-        for (int q = 0; q < slipping_[i].count(); ++q) {
-          const std::complex<double> z = weights[j] * n[i][j] * middle_[static_cast<std::size_t>(q)];
-          slipping_[i].add(q, z.real(), z.imag());
-        }
+    SlipFactors factors;
+    factors.factorize(phases_.collocation().matrix(panel));
+    // The inverse pays off where it is used often.
+    if (rows.cols() < 2 * panel_nodes) {
+      for (Eigen::Index j = 0; j < rows.cols(); ++j) rows.col(j) = factors.solve(rows.col(j));
+    } else {
+      const SlipPanel::Square inverse = factors.inverse();
+      for (Eigen::Index j = 0; j < rows.cols(); ++j) {
+        const SlipPanel::Nodes right = rows.col(j);
+        rows.col(j).noalias() = inverse.lazyProduct(right);
+      }
     }
+    dpsi_ = rows.row(panel_nodes - 1);
+    add_moments(panel, weights);
   }
   const double psi = phase.last_panel > phase.first_panel ? phases_.panel(phase.last_panel - 1).to() : 0;
   const DiscPoint at = disc_->at(phase.end);
@@ -259,6 +255,19 @@ void DiscStretch::slip(const DiscPhase& phase) {
     dw_.row(i) = -std::max(at.h, 0.0) * tangent(i, psi) * dpsi_;
     dw_.row(i).segment(i * c_, c_) += basis_.transpose();
     dw_.row(i).segment(2 * c_, c_) -= outward(i, psi) * basis_.transpose();
+  }
+}
+
+// Of n.
+void DiscStretch::add_moments(const SlipPanel& panel, const SlipPanel::Nodes& weights) {
+  const SlipPanel::Nodes n[] = {weights.cwiseProduct(panel.outward[0]),
+                                weights.cwiseProduct(panel.outward[1])};
+  SlipPanel::Nodes cosine = SlipPanel::Nodes::Ones(), sine = SlipPanel::Nodes::Zero();
+  for (int q = 0; q < slipping_[0].count(); ++q) {
+    for (int i = 0; i < 2; ++i) slipping_[i].add(q, n[i].dot(cosine), n[i].dot(sine));
+    const SlipPanel::Nodes next = cosine.cwiseProduct(panel.cosine) - sine.cwiseProduct(panel.sine);
+    sine = sine.cwiseProduct(panel.cosine) + cosine.cwiseProduct(panel.sine);
+    cosine = next;
   }
 }
 

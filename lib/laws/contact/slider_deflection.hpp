@@ -36,6 +36,7 @@ class DiscStretch {
   void begin(const DiscPhase& phase);
   void stick(const DiscPhase& phase);
   void slip(const DiscPhase& phase);
+  void add_moments(const SlipPanel& panel, const SlipPanel::Nodes& weights);
   void add_nodes();
   void close_period();
 

@@ -13,6 +13,9 @@ namespace {
 constexpr double no_solution = std::numeric_limits<double>::infinity();
 constexpr int collocation_newton_steps = 8;
 constexpr double direction_rounding = 1e-13;  // rad
+constexpr double chord_reach = 1e-4;          // rad: factors are kept where psi has moved less
+constexpr double early_look = 0.03;           // rad: after a shorter step the tail of psi is known roughly
+constexpr double small_turn = 1e-3;           // rad
 
 double legendre(int degree, double t) {
   double before = 1, at = t;
@@ -43,6 +46,24 @@ SlipPanel::Nodes radau() {
   }
   nodes[panel_nodes - 1] = 1;
   return nodes;
+}
+
+void turn_to_psi(SlipPanel& panel) {
+  for (int j = 0; j < panel_nodes; ++j) {
+    panel.outward[0][j] = std::cos(panel.psi[j]);
+    panel.outward[1][j] = std::sin(panel.psi[j]);
+  }
+}
+
+// n at the nodes, where psi becomes less by a step.
+void turn(const SlipPanel::Nodes& step, double size, SlipPanel& panel) {
+  if (size > small_turn) return turn_to_psi(panel);
+  const SlipPanel::Nodes square = step.cwiseProduct(step);
+  const SlipPanel::Nodes cosine = SlipPanel::Nodes::Ones() - 0.5 * square + square.cwiseProduct(square) / 24;
+  const SlipPanel::Nodes sine = step - step.cwiseProduct(square) / 6;
+  const SlipPanel::Nodes first = panel.outward[0];
+  panel.outward[0] = cosine.cwiseProduct(first) + sine.cwiseProduct(panel.outward[1]);
+  panel.outward[1] = cosine.cwiseProduct(panel.outward[1]) - sine.cwiseProduct(first);
 }
 
 }  // namespace
@@ -78,87 +99,170 @@ SlipCollocation::SlipCollocation() : nodes_(radau()) {
   tail_ = basis.inverse().bottomRows(2);
 }
 
-// With x' and h frozen between neighbouring nodes tan((psi - arg x')/2) decays exponentially.
-void SlipCollocation::guess(const std::array<DiscPoint, panel_nodes>& at, SlipPanel& panel) const {
-  double psi = panel.from, theta = panel.begin;
+void SlipFactors::factorize(const SlipPanel::Square& matrix) {
+  lu_ = matrix;
+#pragma GCC unroll 16
+  for (int k = 0; k < panel_nodes; ++k) {
+    inverse_[k] = 1 / lu_(k, k);
+    for (int i = k + 1; i < panel_nodes; ++i) lu_(i, k) *= inverse_[k];
+    for (int j = k + 1; j < panel_nodes; ++j)
+      for (int i = k + 1; i < panel_nodes; ++i) lu_(i, j) -= lu_(i, k) * lu_(k, j);
+  }
+}
+
+SlipPanel::Nodes SlipFactors::solve(SlipPanel::Nodes right) const {
+#pragma GCC unroll 16
+  for (int k = 0; k < panel_nodes; ++k)
+    for (int i = k + 1; i < panel_nodes; ++i) right[i] -= lu_(i, k) * right[k];
+#pragma GCC unroll 16
+  for (int k = panel_nodes - 1; k >= 0; --k) {
+    right[k] *= inverse_[k];
+    for (int i = 0; i < k; ++i) right[i] -= lu_(i, k) * right[k];
+  }
+  return right;
+}
+
+SlipPanel::Square SlipFactors::inverse() const {
+  SlipPanel::Square all;
+  for (int j = 0; j < panel_nodes; ++j) all.col(j) = solve(SlipPanel::Nodes::Unit(j));
+  return all;
+}
+
+// With x'/h constant between neighbouring nodes, (cos psi/2, sin psi/2) times any factor obeys a linear
+// equation, whose matrix is symmetric.
+void SlipCollocation::guess(const Disc& disc, SlipPanel& panel) const {
+  const DiscPoint first = disc.at(panel.begin);
+  double theta = panel.begin, h = std::max(first.h, 0.0), psi = panel.from;
+  Eigen::Vector2d v = first.v, half(std::cos(0.5 * psi), std::sin(0.5 * psi));
   for (int j = 0; j < panel_nodes; ++j) {
-    const DiscPoint& p = at[static_cast<std::size_t>(j)];
-    const double speed = p.v.norm();
+    const Eigen::Vector2d here(panel.v[0][j], panel.v[1][j]), sum = v + here;
+    const double speed = sum.norm(), width = h + panel.h[j];
     if (speed > 0) {
-      const double rate = std::max(p.h, 0.0) > 0 ? speed / p.h * (panel.theta[j] - theta) : 1e3;
-      const double beta = std::remainder(psi - std::atan2(p.v[1], p.v[0]), 2 * std::numbers::pi);
-      psi += 2 * std::atan(std::tan(0.5 * beta) * std::exp(-std::min(rate, 700.0))) - beta;
+      const Eigen::Vector2d along = sum / speed;
+      const double e = width > 0 ? std::exp(-(panel.theta[j] - theta) * speed / width) : 0;
+      Eigen::Vector2d next(along[0] * half[0] + along[1] * half[1], along[1] * half[0] - along[0] * half[1]);
+      next = (1 + e) * half + (1 - e) * next;
+      const double turned = half[0] * next[1] - half[1] * next[0], kept = half.dot(next);
+      if (kept > 0) psi += 2 * std::atan(turned / kept);
+      const double size = next.norm();
+      if (size > 1e-100) half = next / size;
     }
     panel.psi[j] = psi;
+    const double square = half.squaredNorm();
+    panel.outward[0][j] = (half[0] - half[1]) * (half[0] + half[1]) / square;
+    panel.outward[1][j] = 2 * half[0] * half[1] / square;
     theta = panel.theta[j];
+    h = panel.h[j];
+    v = here;
   }
+}
+
+void SlipCollocation::place(const Disc& disc, double begin, double end, SlipPanel& panel) const {
+  panel.begin = begin;
+  panel.end = end;
+  for (int j = 0; j < panel_nodes; ++j) {
+    panel.theta[j] = j == panel_nodes - 1 ? end : begin + 0.5 * (end - begin) * (1 + nodes_[j]);
+    panel.cosine[j] = std::cos(panel.theta[j]);
+    panel.sine[j] = std::sin(panel.theta[j]);
+    const DiscPoint p = disc.at(panel.cosine[j], panel.sine[j]);
+    panel.h[j] = std::max(p.h, 0.0);
+    panel.dh[j] = p.dh;
+    panel.ddh[j] = p.ddh;
+    for (int i = 0; i < 2; ++i) {
+      panel.v[i][j] = p.v[i];
+      panel.a[i][j] = p.a[i];
+    }
+  }
+}
+
+void SlipCollocation::set_rate(SlipPanel& panel) const {
+  panel.rate = by_first_ * panel.from;
+  for (int i = 0; i < panel_nodes; ++i) panel.rate += panel.psi[i] * derivative_.col(i);
+  panel.rate *= 2 / panel.length();
+  panel.along = panel.outward[0].cwiseProduct(panel.v[0]) + panel.outward[1].cwiseProduct(panel.v[1]);
+  panel.across = panel.outward[0].cwiseProduct(panel.v[1]) - panel.outward[1].cwiseProduct(panel.v[0]);
+}
+
+double SlipCollocation::tail(const SlipPanel& panel) const {
+  Eigen::Vector2d sum = tail_.col(0) * panel.from;
+  for (int i = 0; i < panel_nodes; ++i) sum += tail_.col(i + 1) * panel.psi[i];
+  return sum.cwiseAbs().sum() * panel.h.maxCoeff();
+}
+
+// The factors are kept while psi has hardly moved since: the next step is about as long as this one times
+// what psi has moved, by which Newton's method is known to have ended.
+double SlipCollocation::newton(double tolerance, SlipPanel& panel) const {
+  SlipFactors factors;
+  double moved = no_solution, before = no_solution;
+  for (int i = 0; i < collocation_newton_steps; ++i) {
+    set_rate(panel);
+    if (moved > chord_reach) {
+      factors.factorize(matrix(panel));
+      moved = 0;
+    }
+    const SlipPanel::Nodes step = factors.solve(panel.h.cwiseProduct(panel.rate) - panel.across);
+    const double size = step.cwiseAbs().maxCoeff();
+    if (!(size < 3) || (i > 1 && size > 0.5 * before && size > direction_rounding)) return no_solution;
+    panel.psi -= step;
+    turn(step, size, panel);
+    moved += size;
+    if (size <= direction_rounding || size * moved <= 0.1 * direction_rounding) {
+      finish(panel);
+      return tail(panel);
+    }
+    before = size;
+    if (size > early_look) continue;
+    const double rough = tail(panel);
+    if (rough > 4 * tolerance + 2 * size * panel.h.maxCoeff()) return rough;
+  }
+  return no_solution;
+}
+
+void SlipCollocation::finish(SlipPanel& panel) const {
+  set_rate(panel);
+  panel.turn[0] = -panel.outward[1];
+  panel.turn[1] = panel.outward[0];
+  panel.spare = panel.along - panel.dh;
+  panel.gain = panel.outward[0].cwiseProduct(panel.a[0]) + panel.outward[1].cwiseProduct(panel.a[1]) -
+               panel.ddh + panel.rate.cwiseProduct(panel.across);
 }
 
 double SlipCollocation::solve(const Disc& disc, double begin, double end, double from, double tolerance,
                               SlipPanel& panel) const {
-  panel.begin = begin;
-  panel.end = end;
+  place(disc, begin, end, panel);
   panel.from = from;
-  const double half = 0.5 * (end - begin);
-  std::array<DiscPoint, panel_nodes> at;
-  for (int j = 0; j < panel_nodes; ++j) {
-    panel.theta[j] = j == panel_nodes - 1 ? end : begin + half * (1 + nodes_[j]);
-    at[static_cast<std::size_t>(j)] = disc.at(panel.theta[j]);
-    panel.h[j] = std::max(at[static_cast<std::size_t>(j)].h, 0.0);
+  guess(disc, panel);
+  return newton(tolerance, panel);
+}
+
+double SlipCollocation::solve_near(const Disc& disc, const SlipPanel& known, double begin, double end,
+                                   double from, double tolerance, SlipPanel& panel) const {
+  if (begin == known.begin && end == known.end) {
+    panel = known;
+  } else {
+    place(disc, begin, end, panel);
+    for (int j = 0; j < panel_nodes; ++j) panel.psi[j] = psi(known, panel.theta[j]);
+    turn_to_psi(panel);
   }
-  guess(at, panel);
-  bool settled = false;
-  for (int i = 0; i < collocation_newton_steps && !settled; ++i) {
-    panel.rate = (derivative_ * panel.psi + by_first_ * from) / half;
-    for (int j = 0; j < panel_nodes; ++j) {
-      const Eigen::Vector2d& v = at[static_cast<std::size_t>(j)].v;
-      const double c = std::cos(panel.psi[j]), sine = std::sin(panel.psi[j]);
-      panel.along[j] = c * v[0] + sine * v[1];
-      panel.across[j] = c * v[1] - sine * v[0];
-    }
-    const SlipPanel::Nodes residual = panel.h.cwiseProduct(panel.rate) - panel.across;
-    const SlipPanel::Nodes step = matrix(panel).partialPivLu().solve(residual);
-    if (!step.allFinite() || !(step.cwiseAbs().maxCoeff() < 3)) return no_solution;
-    panel.psi -= step;
-    settled = step.cwiseAbs().maxCoeff() <= direction_rounding ||
-              step.cwiseProduct(panel.h).cwiseAbs().maxCoeff() <= 1e-3 * tolerance;
-  }
-  if (!settled) return no_solution;
-  for (int j = 0; j < panel_nodes; ++j) {
-    const DiscPoint& p = at[static_cast<std::size_t>(j)];
-    const double c = std::cos(panel.psi[j]), sine = std::sin(panel.psi[j]);
-    panel.along[j] = c * p.v[0] + sine * p.v[1];
-    panel.across[j] = c * p.v[1] - sine * p.v[0];
-    panel.spare[j] = panel.along[j] - p.dh;
-    panel.gain[j] = c * p.a[0] + sine * p.a[1] - p.ddh;
-  }
-  panel.rate = (derivative_ * panel.psi + by_first_ * from) / half;
-  panel.gain += panel.rate.cwiseProduct(panel.across);
-  Eigen::Matrix<double, panel_nodes + 1, 1> values;
-  values << from, panel.psi;
-  return (tail_ * values).cwiseAbs().sum() * panel.h.maxCoeff();
+  const double turns = whole_turn * std::round((from - known.from) / whole_turn);
+  panel.psi.array() += turns;
+  panel.from = from;
+  return newton(tolerance, panel);
 }
 
 void SlipCollocation::hold(const Disc& disc, double begin, double end, double psi, SlipPanel& panel) const {
-  panel.begin = begin;
-  panel.end = end;
+  place(disc, begin, end, panel);
   panel.from = psi;
   panel.psi.setConstant(psi);
+  turn_to_psi(panel);
+  finish(panel);
   panel.rate.setZero();
-  const double c = std::cos(psi), sine = std::sin(psi);
-  for (int j = 0; j < panel_nodes; ++j) {
-    panel.theta[j] = j == panel_nodes - 1 ? end : begin + 0.5 * (end - begin) * (1 + nodes_[j]);
-    const DiscPoint at = disc.at(panel.theta[j]);
-    panel.h[j] = std::max(at.h, 0.0);
-    panel.along[j] = c * at.v[0] + sine * at.v[1];
-    panel.across[j] = c * at.v[1] - sine * at.v[0];
-    panel.spare[j] = panel.along[j] - at.dh;
-    panel.gain[j] = c * at.a[0] + sine * at.a[1] - at.ddh;
-  }
 }
 
 SlipPanel::Square SlipCollocation::matrix(const SlipPanel& panel) const {
-  SlipPanel::Square m = (2 / panel.length() * panel.h).asDiagonal() * derivative_;
+  const SlipPanel::Nodes scale = 2 / panel.length() * panel.h;
+  SlipPanel::Square m;
+  for (int i = 0; i < panel_nodes; ++i) m.col(i) = scale.cwiseProduct(derivative_.col(i));
   m.diagonal() += panel.along;
   return m;
 }

@@ -16,22 +16,49 @@
 
 namespace arcslip::elements {
 
-constexpr int panel_nodes = 16;
+constexpr int panel_nodes = 10;
 
 struct SlipPanel {
   using Nodes = Eigen::Matrix<double, panel_nodes, 1>;
   using Square = Eigen::Matrix<double, panel_nodes, panel_nodes>;
 
   double begin = 0, end = 0;
-  double from = 0;      // psi at the beginning
-  Nodes theta, psi, h;  // at the nodes
-  Nodes along, across;  // x'.n and x'.t there
-  Nodes rate;           // psi'
-  Nodes spare;          // x'.n - h', the speed of slip
-  Nodes gain;           // its derivative
+  double from = 0;            // psi at the beginning
+  Nodes theta, psi, h;        // at the nodes
+  Nodes cosine, sine;         // of theta
+  Nodes outward[2], turn[2];  // n and t
+  Nodes v[2], a[2];           // x', x''
+  Nodes dh, ddh;              // h', h''
+  Nodes along, across;        // x'.n and x'.t
+  Nodes rate;                 // psi'
+  Nodes spare;                // x'.n - h', the speed of slip
+  Nodes gain;                 // its derivative
 
   double length() const { return end - begin; }
   double to() const { return psi[panel_nodes - 1]; }
+  /// The same in another period, where psi has made some turns.
+  void shift(double angle, double turns) {
+    begin += angle;
+    end += angle;
+    theta.array() += angle;
+    from += turns;
+    psi.array() += turns;
+  }
+  Eigen::Vector2d last_outward() const { return {outward[0][panel_nodes - 1], outward[1][panel_nodes - 1]}; }
+};
+
+/// The triangular factors of the equation's derivative by psi at the nodes, without a choice of pivots: those
+/// of Radau's matrix are positive, and x'.n adds to them. Where it is negative, beyond the end of slip, what
+/// comes out may be useless, which Newton's method notices.
+class SlipFactors {
+ public:
+  void factorize(const SlipPanel::Square& matrix);
+  SlipPanel::Nodes solve(SlipPanel::Nodes right) const;
+  SlipPanel::Square inverse() const;
+
+ private:
+  SlipPanel::Square lu_;
+  SlipPanel::Nodes inverse_;  // of the diagonal of U
 };
 
 /// Radau's nodes on [-1, 1], with what belongs to them.
@@ -40,9 +67,13 @@ class SlipCollocation {
   SlipCollocation();
 
   /// The size of the last two Legendre coefficients of h psi on the panel: what is not resolved is below it,
-  /// and psi at the end is more exact by far. Infinite if Newton's method fails: the panel is too long.
+  /// and psi at the end is more exact by far. Infinite if Newton's method fails: the panel is too long. It
+  /// ends early, with a larger number than the tolerance, where that can be seen.
   double solve(const Disc& disc, double begin, double end, double from, double tolerance,
                SlipPanel& panel) const;
+  /// The same where the solution from another psi, or over almost the same angles, is known.
+  double solve_near(const Disc& disc, const SlipPanel& known, double begin, double end, double from,
+                    double tolerance, SlipPanel& panel) const;
 
   /// The panel with a constant psi, where no length resolves it.
   void hold(const Disc& disc, double begin, double end, double psi, SlipPanel& panel) const;
@@ -56,7 +87,12 @@ class SlipCollocation {
   double psi(const SlipPanel& panel, double theta) const;
 
  private:
-  void guess(const std::array<DiscPoint, panel_nodes>& at, SlipPanel& panel) const;
+  void place(const Disc& disc, double begin, double end, SlipPanel& panel) const;
+  void guess(const Disc& disc, SlipPanel& panel) const;
+  double newton(double tolerance, SlipPanel& panel) const;
+  void set_rate(SlipPanel& panel) const;
+  void finish(SlipPanel& panel) const;
+  double tail(const SlipPanel& panel) const;
 
   SlipPanel::Nodes nodes_, weights_, by_first_;
   SlipPanel::Square derivative_;
