@@ -5,6 +5,7 @@
 
 #include <arcslip/laws/contact/contact_2d.hpp>
 #include <arcslip/laws/contact/contact_3d.hpp>
+#include <arcslip/laws/contact/slip_collocation.hpp>
 #include <arcslip/laws/contact/stick_feasibility.hpp>
 
 #include <algorithm>
@@ -136,6 +137,31 @@ TEST_CASE("a slider sticks throughout iff one place is within every disc, and re
     };
     CHECK((every_law::differences(rest, u, 1e-6) - dw).cwiseAbs().maxCoeff() < 1e-7);
   }
+}
+
+TEST_CASE(
+    "a panel of slip that is too long is reported as not solved, and a short one is exact on a circle") {
+  // x = (cos, sin): slip goes round with sin(theta + pi/2 - psi) = h.
+  const elements::Harmonics h{1, false};
+  Vector x_1 = Vector::Zero(3), x_2 = Vector::Zero(3), radius = Vector::Zero(3);
+  x_1[1] = x_2[h.sine_index(1)] = 1;
+  elements::Disc disc(h);
+  const elements::SlipCollocation collocation;
+  elements::SlipPanel panel;
+  for (const double r : {0.9, 0.1, 1e-3, 1e-6}) {
+    CAPTURE(r);
+    radius[0] = r;
+    disc.set(x_1, x_2, radius);
+    const double psi = 0.5 * pi - std::asin(r), tolerance = 1e-8 * r;
+    CHECK(collocation.solve(disc, 0, 0.4, psi, tolerance, panel) <= tolerance);
+    CHECK(std::abs(panel.to() - psi - 0.4) < 1e-12);
+    // Almost against the motion n turns round faster than a whole period resolves.
+    if (r <= 0.1) CHECK(collocation.solve(disc, 0, 2 * pi, psi + 3.1, tolerance, panel) > tolerance);
+  }
+  // Newton's method finds nothing.
+  radius[0] = 0.1;
+  disc.set(x_1, x_2, radius);
+  CHECK(std::isinf(collocation.solve(disc, 0, 6.28, 0.5 * pi - std::asin(0.1) + 3, 1e-9, panel)));
 }
 
 TEST_CASE("the coefficients of a contact in a plane are those of a march in small steps") {
