@@ -1,6 +1,11 @@
 #include <arcslip/continuation/linear/lapack.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <mutex>
+#include <new>
+
+#include <sys/mman.h>
 
 extern "C" {
 // NOLINTBEGIN(readability-identifier-naming)
@@ -19,12 +24,25 @@ void ztrsm_(const char* side, const char* part, const char* transposed, const ch
 
 namespace arcslip::continuation::lapack {
 
+void require_memory() {
+  static std::once_flag known;
+  std::call_once(known, [] {
+    constexpr std::size_t bytes = std::size_t{168} << 20;  // it takes 128 MB
+    void* const memory =
+        ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    ::munmap(memory, bytes);
+  });
+}
+
 void factorize(int n, double* A, int* exchanges) {
+  require_memory();
   int info = 0;
   dgetrf_(&n, &n, A, &n, exchanges, &info);
 }
 
 void factorize(int n, std::complex<double>* A, int* exchanges) {
+  require_memory();
   int info = 0;
   zgetrf_(&n, &n, A, &n, exchanges, &info);
 }
@@ -41,6 +59,7 @@ void solve_triangle(const char* part, const char* diagonal, int n, int columns, 
 }
 
 void transposed_product(int m, int n, int k, const double* A, const double* B, double* C) {
+  require_memory();
   const int rows = std::max(k, 1), rows_of_C = std::max(m, 1);
   const double one = 1, zero = 0;
   dgemm_("T", "N", &m, &n, &k, &one, A, &rows, B, &rows, &zero, C, &rows_of_C);

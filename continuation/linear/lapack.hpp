@@ -8,6 +8,10 @@ namespace arcslip::continuation::lapack {
 // From here on LAPACK is faster than Eigen: with SSE2 1.6 times at 100, 2.0 at 160, 2.8 at 840 unknowns.
 inline constexpr int smallest_lu = 100;
 
+/// Each function throws std::bad_alloc where OpenBLAS would not get the memory of its first use, for which it
+/// asks without an end.
+void require_memory();
+
 /// P A = L U in place, rows i and exchanges[i] - 1 exchanged one after the other. A zero pivot stays in U. A
 /// NaN may be lost, as a kernel may pass over products with 0.
 void factorize(int n, double* A, int* exchanges);

@@ -19,6 +19,7 @@ constexpr double unknown_curve_error = 1 / 0.3;   // where the problem cannot be
 // the angle times the length of the step at one of these shares of it.
 constexpr double shares_across_kinks[] = {0.25, 0.5, 0.75};
 constexpr double least_departure = 1.0 / 20;
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double across_many =
     0.5;  // of the error allowed: kinks between these shares may take it twice as far
 constexpr double slope_safety = 10;  // of a slope's sign, at a kink
@@ -37,43 +38,59 @@ bool is_resolved(double a, double b, double bend) {
 bool InterpolationControl::passes_kinks(TrialStep& trial) {
   const CurvePoint &from = s_.here, &to = trial.end;
   if (!looks_for_kinks_ || from.piece == to.piece || from.part != to.part) return false;
-  const bool by_curve_alone = options_.step.pass_kinks;
-  const double length = distance(main_, from.v, to.v),
-               allowed = (by_curve_alone ? across_many : 1) * allowed_error(from, to);
+  if (by_curve_alone()) return passes_by_curve(trial);
+  const double length = distance(main_, from.v, to.v), allowed = allowed_error(from, to);
+  const double farthest = departure_across_kinks(from, to, allowed);
+  if (!(farthest <= allowed)) return false;
+  const double turn = farthest / (least_departure * length);
+  if (!(turn < visible_corner) || !keeps_signs(from, to, turn) || !resolves(from, to, trial)) return false;
+  trial.curve_error = options_.step.curve_tolerance > 0 ? farthest / allowed : 0;
+  return trial.passes_kinks = true;
+}
+
+// With StepOptions::pass_kinks. A step that leaves the curve is one that is passed, too: it will be
+// shortened, down to a limit.
+bool InterpolationControl::passes_by_curve(TrialStep& trial) {
+  const CurvePoint &from = s_.here, &to = trial.end;
+  const double error = departure_across_kinks(from, to, unlimited) / (across_many * allowed_error(from, to));
+  if (!std::isfinite(error)) return false;
+  if (error > 1) {
+    if (stretch_is_short(unresolved_share)) return false;
+    trial.worst_begin = from.arclength;
+    trial.worst_end = from.arclength + distance(main_, from.v, to.v);
+    begin_stretch(trial.worst_end - trial.worst_begin);
+  } else if (!has_no_event(from, to) || !resolves(from, to, trial)) {
+    return false;
+  }
+  trial.curve_error = error;
+  return trial.passes_kinks = true;
+}
+
+// Whether the curve alone decides: not where a monitor asks for kinks.
+bool InterpolationControl::by_curve_alone() const {
+  return options_.step.pass_kinks && std::none_of(monitors_.begin(), monitors_.end(), [](const Monitor& m) {
+           return m.kind == MonitorKind::kink;
+         });
+}
+
+// The farthest distance of the branch from the cubic, at some places: in turn until one is above `most`.
+double InterpolationControl::departure_across_kinks(const CurvePoint& from, const CurvePoint& to,
+                                                    double most) {
+  const double length = distance(main_, from.v, to.v);
   double farthest = 0;
   for (const double share : shares_across_kinks) {
     hermite(from.v, from.tangent, to.v, to.tangent, length, share, middle_);
     const double departure = main_.distance_from_branch(middle_);
-    if (!(departure <= allowed) && !(by_curve_alone && std::isfinite(departure))) return false;
+    if (!(departure <= most)) return departure;
     farthest = std::max(farthest, departure);
   }
-  const bool leaves_curve = farthest > allowed;
-  if (leaves_curve && stretch_is_short(unresolved_share)) return false;
-  if (!leaves_curve && !(by_curve_alone ? has_no_event(from, to) : turns_unseen(from, to, farthest, length)))
-    return false;
-  if (!leaves_curve && !resolves(from, to, trial)) return false;
-  trial.curve_error = options_.step.curve_tolerance > 0 ? farthest / allowed : 0;
-  if (leaves_curve) {
-    trial.worst_begin = from.arclength;
-    trial.worst_end = from.arclength + length;
-    begin_stretch(length);
-  }
-  return trial.passes_kinks = true;
+  return farthest;
 }
 
-// Whether kinks that take the branch so far off the cubic are too small to be seen, and to change the sign of
-// a monitored slope.
-bool InterpolationControl::turns_unseen(const CurvePoint& from, const CurvePoint& to, double farthest,
-                                        double length) const {
-  const double turn = farthest / (least_departure * length);
-  return turn < visible_corner && keeps_signs(from, to, turn);
-}
-
-// Whether no monitor asks for kinks, and none of a slope has an event between places with these values: an
-// extremum that both ends hide is no farther from the cubic than the curve.
+// Whether no monitor of a slope has an event between places with these values: an extremum that both ends
+// hide is no farther from the cubic than the curve.
 bool InterpolationControl::has_no_event(const CurvePoint& from, const CurvePoint& to) const {
   for (std::size_t m = 0; m < monitors_.size(); ++m) {
-    if (monitors_[m].kind == MonitorKind::kink) return false;
     if (!monitors_[m].quantity) continue;
     const double a = from.monitors[m], b = to.monitors[m];
     const Crossing wanted = monitors_[m].crossing;
@@ -107,7 +124,7 @@ void InterpolationControl::measure_curve(TrialStep& trial) {
   trial.worst_begin = s_.here.arclength;
   trial.worst_end = trial.end.arclength;
   trial.all_sections(s_.here, [&](const CurvePoint& from, const CurvePoint& to) {
-    if (from.piece == to.piece) {
+    if (from.piece == to.piece || by_curve_alone()) {
       const double error = curve_error(from, trial, to);
       if (error <= trial.curve_error) return true;
       trial.curve_error = error;
@@ -127,7 +144,14 @@ double InterpolationControl::curve_error(const CurvePoint& from, TrialStep& tria
   hermite(from.v, from.tangent, to.v, to.tangent, length, 0.5, middle_);
   const double error = main_.distance_from_branch(middle_) / allowed_error(from, to);
   std::uint64_t piece = 0;
-  if (main_.piece(piece) && piece != to.piece) trial.other_piece_between = true;
+  const bool changes = main_.piece(piece) && (piece != to.piece || from.piece != to.piece);
+  if (!changes) return std::isfinite(error) ? error : unknown_curve_error;
+  if (by_curve_alone()) {
+    const double across =
+        departure_across_kinks(from, to, unlimited) / (across_many * allowed_error(from, to));
+    return std::isfinite(across) ? across : unknown_curve_error;
+  }
+  trial.other_piece_between = true;
   return std::isfinite(error) ? error : unknown_curve_error;
 }
 
@@ -139,8 +163,7 @@ double InterpolationControl::allowed_error(const CurvePoint& from, const CurvePo
 }
 
 bool InterpolationControl::misses_kinks(const TrialStep& trial) {
-  if (!trial.other_piece_between || options_.step.pass_kinks || stretch_is_short(unresolved_share))
-    return false;
+  if (!trial.other_piece_between || stretch_is_short(unresolved_share)) return false;
   begin_stretch(trial.length);
   return true;
 }

@@ -51,7 +51,9 @@ class InterpolationControl {
  private:
   double curve_error(const CurvePoint& from, TrialStep& trial, const CurvePoint& to);
   double allowed_error(const CurvePoint& from, const CurvePoint& to) const;
-  bool turns_unseen(const CurvePoint& from, const CurvePoint& to, double farthest, double length) const;
+  bool passes_by_curve(TrialStep& trial);
+  bool by_curve_alone() const;
+  double departure_across_kinks(const CurvePoint& from, const CurvePoint& to, double most);
   bool has_no_event(const CurvePoint& from, const CurvePoint& to) const;
   bool keeps_signs(const CurvePoint& from, const CurvePoint& to, double turn) const;
   bool resolves(const CurvePoint& from, const CurvePoint& to, TrialStep& trial) const;

@@ -1,10 +1,8 @@
 #include <arcslip/structure/interior_factor.hpp>
 
-#include <algorithm>
-#include <mutex>
-#include <new>
+#include <arcslip/continuation/linear/lapack.hpp>
 
-#include <sys/mman.h>
+#include <algorithm>
 
 namespace arcslip::structure {
 namespace {
@@ -15,19 +13,6 @@ constexpr Index columns_at_once = 64;  // each takes memory of its own while it 
 
 void listen(const control::Control& control) {
   if (!control.keep_going()) throw control::Interrupted("interrupted while the structure was reduced");
-}
-
-// OpenBLAS takes 128 MB at its first use, and asks for them without an end where there are none.
-constexpr std::size_t memory_of_blas = std::size_t{168} << 20;  // bytes
-
-void require_memory_of_blas() {
-  static std::once_flag known;
-  std::call_once(known, [] {
-    void* const memory = ::mmap(nullptr, memory_of_blas, PROT_READ | PROT_WRITE,
-                                MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    ::munmap(memory, memory_of_blas);
-  });
 }
 
 }  // namespace
@@ -43,7 +28,7 @@ bool InteriorFactor::factorize(const Sparse& A) {
   // Minimum degree alone: METIS, which CHOLMOD also tries, takes SIGTERM for itself meanwhile.
   of_.cholmod().nmethods = 1;
   of_.cholmod().method[0].ordering = CHOLMOD_AMD;
-  require_memory_of_blas();
+  continuation::lapack::require_memory();
   of_.compute(A);
   listen(control_);
   return of_.info() == Eigen::Success;

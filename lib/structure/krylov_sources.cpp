@@ -22,8 +22,8 @@ constexpr int iterations = 3;
 constexpr double of_direction = 0.5;  // next to the limit: what a combination has to add
 
 // Normally distributed, the same everywhere (Box and Muller).
-MatrixXd normal(Index rows, Index columns, std::minstd_rand& random) {
-  const auto uniform = [&] { return static_cast<double>(random()) / std::minstd_rand::max(); };
+MatrixXd normal(Index rows, Index columns, std::mt19937_64& random) {
+  const auto uniform = [&] { return std::ldexp(static_cast<double>(random() >> 11) + 0.5, -53); };
   return MatrixXd::NullaryExpr(rows, columns, [&] {
     const double radius = std::sqrt(-2 * std::log(uniform()));
     return radius * std::cos(2 * std::numbers::pi * uniform());
@@ -74,7 +74,7 @@ MatrixXd KrylovSources::all() const {
 }
 
 double append_sources(EnergyBasis& basis, const InteriorFactor& A, const KrylovSources& X, double limit,
-                      Index most, std::minstd_rand& random) {
+                      Index most, std::mt19937_64& random) {
   const Index count = X.count();
   for (Index sampled = 0, batch = first_many; count > few && sampled + batch < count / 2;
        sampled += std::exchange(batch, batch_growth * (sampled + batch))) {
@@ -84,7 +84,8 @@ double append_sources(EnergyBasis& basis, const InteriorFactor& A, const KrylovS
     right = X.combined(normal(count, probes, random));
     W = A.solve(right);
     basis.take_out(W, right);
-    const double left = of_probes * std::sqrt((W.array() * right.array()).colwise().sum().maxCoeff());
+    const double left =
+        of_probes * std::sqrt((W.array() * right.array()).colwise().sum().max(0.0).maxCoeff());
     if (left <= limit || basis.size() >= most) return left;
   }
   MatrixXd right = X.all();
@@ -93,7 +94,7 @@ double append_sources(EnergyBasis& basis, const InteriorFactor& A, const KrylovS
 }
 
 double largest_theta_outside(const EnergyBasis& basis, const InteriorFactor& A, const Sparse& M,
-                             std::minstd_rand& random) {
+                             std::mt19937_64& random) {
   MatrixXd X = M * normal(M.rows(), iterated, random);
   double theta = 0;
   for (int step = 0; step <= iterations; ++step) {
@@ -101,7 +102,8 @@ double largest_theta_outside(const EnergyBasis& basis, const InteriorFactor& A, 
     basis.take_out(W, X);
     const MatrixXd energy = W.transpose() * X, MW = M * W, mass = W.transpose() * MW;
     const VectorXd lengths = energy.diagonal().cwiseMax(0.0).cwiseSqrt();
-    if (!(lengths.minCoeff() > 0)) return 0;
+    if (!lengths.allFinite()) return HUGE_VAL;
+    if (lengths.minCoeff() == 0) return 0;
     theta = (mass.diagonal().array() / energy.diagonal().array()).maxCoeff();
     X = MW * lengths.cwiseInverse().asDiagonal();
   }

@@ -83,11 +83,11 @@ class KrylovSources {
 /// Appends to the basis what A^-1 X has next to it, down to `limit`. The norm of what it then lacks of them,
 /// above limit where there are `most` vectors.
 double append_sources(EnergyBasis& basis, const InteriorFactor& A, const KrylovSources& X, double limit,
-                      Eigen::Index most, std::minstd_rand& random);
+                      Eigen::Index most, std::mt19937_64& random);
 
 /// The largest theta, A^-1 M x = theta x, of the vectors orthogonal to the basis, from a few steps of
 /// subspace iteration.
 double largest_theta_outside(const EnergyBasis& basis, const InteriorFactor& A, const Sparse& M,
-                             std::minstd_rand& random);
+                             std::mt19937_64& random);
 
 }  // namespace arcslip::structure

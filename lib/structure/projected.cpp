@@ -128,7 +128,8 @@ class UndampedInterior {
     const MatrixXd M = P.parts.front().zz.topLeftCorner(first, first);
     MatrixXd A = MatrixXd::Identity(first, first);
     if (K2_ != nullptr) A += stiffening * K2_->zz.topLeftCorner(first, first);
-    auto found = K2_ == nullptr ? large_symmetric_modes(M) : continuation::symmetric_modes(M, A);
+    continuation::SymmetricModes found{VectorXd(0), MatrixXd(0, 0)};
+    if (first > 0) found = K2_ == nullptr ? large_symmetric_modes(M) : continuation::symmetric_modes(M, A);
     converged_ = found.values.size() == first;
     if (!converged_) return;
     theta_ = std::move(found.values);
@@ -249,13 +250,11 @@ double largest_theta(const Projected& P, double stiffening) {
   return of.size() == 0 ? none : std::max(of[of.size() - 1], 0.0);
 }
 
-double infinity_norm_of_inverse(const MatrixXcd& S) {
+// No less than the norm of the inverse.
+double bound_of_inverse(const MatrixXcd& S) {
   if (S.rows() == 0) return 0;
-  return continuation::solve_complex(S, MatrixXcd::Identity(S.rows(), S.rows()))
-      .cwiseAbs()
-      .rowwise()
-      .sum()
-      .maxCoeff();
+  const MatrixXd sizes = continuation::solve_complex(S, MatrixXcd::Identity(S.rows(), S.rows())).cwiseAbs();
+  return std::sqrt(sizes.rowwise().sum().maxCoeff() * sizes.colwise().sum().maxCoeff());
 }
 
 double largest_column(const MatrixXcd& r, Index columns) {
@@ -310,14 +309,14 @@ class BoundOfStiffened {
     }
     const double of_columns = largest_column(of.r, of.r.cols()), product = of_rows * of_columns;
     const double a = std::max(amplification(P_, at.p, largest_theta_) / softened_, of.inverse);
-    double inverse = a, of_rest = a;
+    double of_rest = a;
     if (product <= enough_) {
-      inverse = infinity_norm_of_inverse(damped_ ? of.S : modes.schur(at));
+      const double inverse = bound_of_inverse(damped_ ? of.S : modes.schur(at));
       const double least = margin * amplification(P_, at.p, margin * left_.theta) / softened_;
       of_rest = std::min(a, std::max(least, inverse));
     }
     const double l = left_.norm;
-    return {product * inverse + of_rest * ((of_rows + of_columns) * l + l * l), of_rest};
+    return {of_rest * (product + (of_rows + of_columns) * l + l * l), of_rest};
   }
 
   const Projected& P_;

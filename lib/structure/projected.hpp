@@ -3,15 +3,16 @@
 // loads f, and what residuals say of the coordinates z.
 //
 // With the first coordinates z, x_i = Psi x_b + V z + e, the interior is left with Z_ii e = r. Of the next
-// ones, U, r has the part r_U = U^T r and Z_ii the Schur complement S on the first ones; of r no more remains
-// than l in the norm of A_ii^-1. The condensed stiffness is then wrong by r^T Z_ii^-1 r, which is at most
+// ones, U, r has the part r_U = U^T r; of r no more remains than l in the norm of A_ii^-1. The condensed
+// stiffness is then wrong by r^T Z_ii^-1 r, which is at most
 //
-//   |r_U|^2 |S^-1| + a (2 |r_U| l + l^2),   a = 1/min |1 - p m|,  0 <= m <= the largest theta,
+//   a (|r_U| + l)^2,   a = 1/min |1 - p m|,  0 <= m <= the largest theta,
 //
 // for any pair of rows, by Cauchy and Schwarz: the parts of several modes do not cancel in it. With a loss
 // factor the minimum is that of the field of values of Z_ii, which damping does not make smaller. Where V
-// holds all modes of low frequency and their residuals are small, the minimum is that over the theta of the
-// vectors orthogonal to V, with a margin, or |S^-1| if that is more.
+// holds all modes of low frequency and their residuals are small, a is estimated: the minimum is that over
+// the theta of the vectors orthogonal to V, with a margin, or |S^-1| if that is more, S the Schur complement
+// of Z_ii in U on the first coordinates.
 
 #include <Eigen/Core>
 

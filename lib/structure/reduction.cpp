@@ -226,17 +226,27 @@ class Reduction {
   // What the space lacks of sources of vectors, next to the root of their envelope.
   struct Block {
     double left;
+    bool of_first;
     Index from;
     MatrixXd E;
   };
+
+  // Of the coefficients of the sources of vectors, and of those of x_b if they are among them.
+  static double length_of(bool of_first, const Envelope& reached) {
+    const double length = std::max(reached.length, 1.0);
+    return of_first ? std::hypot(length, 1.0) : length;
+  }
+  // Of the coefficients of one x_b in the columns of each matrix.
+  double groups() const { return std::sqrt(static_cast<double>(operators_.size())); }
 
   // Appends to the space what the sources of x_b, of the loads and of its vectors from `from` on lead to.
   void append_block(bool of_first, Index from, Index most) {
     KrylovSources X = sources();
     if (of_first) X.take_first(inverse_scale(P_));
     const Index old = space_->size(), count = old - from;
-    const double length = count > 0 ? std::max(reached_.length, 1.0) : 1;
-    const double limit = std::sqrt(share_of_left * accuracy_ / amplification_) / (usual_blocks * length);
+    const double length = count > 0 ? length_of(of_first, reached_) : 1;
+    const double limit = std::sqrt(share_of_left * accuracy_ / (amplification_ * tightening_)) /
+                         (usual_blocks * length * groups());
     MatrixXd E = reached_.E.bottomRightCorner(count, count);
     E.diagonal().array() += std::pow(limit / largest_coupling, 2);
     if (count > 0) {
@@ -246,7 +256,7 @@ class Reduction {
       X.take_vectors(product(space_->V().rightCols(count), root));
     }
     if (X.count() == 0) return;
-    blocks_.push_back({append_sources(*space_, factor_, X, limit, most, random_), from, E});
+    blocks_.push_back({append_sources(*space_, factor_, X, limit, most, random_), of_first, from, E});
     project_from(old);
   }
 
@@ -259,9 +269,9 @@ class Reduction {
       double length = 1;
       if (count > 0) {
         const double larger = largest_next_to(reached.E.block(block.from, block.from, count, count), block.E);
-        length = std::max(reached.length, 1.0) * std::sqrt(std::max(larger, 1.0));
+        length = length_of(block.of_first, reached) * std::sqrt(std::max(larger, 1.0));
       }
-      sum += block.left * length;
+      sum += block.left * length * groups();
     }
     return sum;
   }
@@ -353,10 +363,12 @@ class Reduction {
   // The sources of all vectors once more, with what is known of their sizes now. False: nothing is new.
   bool tighten(Index most) {
     const Index old = space_->size();
-    amplification_ *= 4;
+    tightening_ *= 4;
     blocks_.clear();
     append_block(true, 0, most);
-    return space_->size() > old;
+    if (space_->size() == old) return false;
+    reached_ = known_envelope();
+    return true;
   }
 
   // What they add.
@@ -500,7 +512,8 @@ class Reduction {
   std::vector<Block> blocks_;
   Envelope reached_;          // of the space
   double amplification_ = 4;  // ResidualBound::amplification, about
-  std::minstd_rand random_;
+  double tightening_ = 1;     // of what the space may lack
+  std::mt19937_64 random_;
   Projected P_;
 };
 

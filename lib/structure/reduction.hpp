@@ -52,7 +52,7 @@ struct Reduced {
   Eigen::MatrixXd loads;  // a column each
   /// The largest error of an entry of Z, for s from 0 to the highest frequency and a loss factor of 1 %,
   /// relative to the terms of its row and column on the diagonal, and of the loads at b, relative to
-  /// sqrt(f^T A^-1 f) in place of a row, at speeds from 0 to the highest: a bound by residuals (projected.hpp);
+  /// sqrt(f^T A^-1 f) in place of a row, at speeds from 0 to the highest: by residuals (projected.hpp);
   /// and what the last digits of the entries of M and K change of the square of the lowest natural frequency.
   double error = 0;
   /// Natural frequencies below this, rad/s, are not distinguished from 0: rigid-body motions. 0: there are

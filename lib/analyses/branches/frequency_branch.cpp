@@ -216,6 +216,7 @@ continuation::Options frequency_options(const FrequencyWindow& window, Steps ste
 }
 
 bool passes_kinks(const model::Model& model) {
+  if (model.settings.friction != scene::Friction::exact) return false;
   if (model.settings.kinks != scene::Kinks::automatic) return model.settings.kinks == scene::Kinks::passed;
   const auto contacts = std::count_if(model.elements.begin(), model.elements.end(), [&](const auto& element) {
     return element.law->corners(model.harmonics) != nullptr;
@@ -224,8 +225,8 @@ bool passes_kinks(const model::Model& model) {
 }
 
 void pass_kinks(const model::Model& model, const MonitoredEvents& watched, continuation::Options& options) {
-  if (watched.stability || watched.branch_points || !(options.step.curve_tolerance > 0)) return;
-  if (!passes_kinks(model)) return;
+  if (watched.stability || watched.branch_points || watched.passage > 0) return;
+  if (!(options.step.curve_tolerance > 0) || !passes_kinks(model)) return;
   options.step.pass_kinks = true;
   options.step.curve_tolerance = curve_tolerance_across_kinks;
   options.step.largest_parameter *= points_in_window / points_across_kinks;

@@ -139,7 +139,7 @@ class ModeStudy {
     options.check_jacobian = false;
     options.step.largest_parameter = (options.upper - options.lower) / points_in_range;
     options.step.curve_tolerance = curve_tolerance;
-    pass_kinks(*free_, {}, options);
+    if (record) pass_kinks(*free_, {}, options);
     options.control = control_;
     const bool divides = free_->settings.friction == scene::Friction::exact;
     std::vector<continuation::Monitor> monitors;

@@ -80,12 +80,12 @@ bool DynamicStiffness::prepare(Harmonic& at) {
   return operator_->move_to(parts_.factors(s), s, at.modal);
 }
 
-const Condensed& DynamicStiffness::formed(Harmonic& at) const {
+const ComplexMatrix& DynamicStiffness::formed(Harmonic& at) const {
   if (uses_operator_ && !at.is_formed) {
-    operator_->form(at.modal, at.force, at.condensed.Z, at.condensed.f);
+    operator_->form(at.modal, at.condensed.Z);
     at.is_formed = true;
   }
-  return at.condensed;
+  return at.condensed.Z;
 }
 
 bool DynamicStiffness::condense(Harmonic& at) {
@@ -179,7 +179,7 @@ void DynamicStiffness::residual(In u, double force_factor, Out R) const {
 void DynamicStiffness::add_to(Eigen::MatrixXd& J) const {
   for (Harmonic& at : harmonics_) {
     const int size = size_, a = at.cosine, b = at.sine;
-    const ComplexMatrix& matrix = formed(at).Z;
+    const ComplexMatrix& matrix = formed(at);
     for (int j = 0; j < r_; ++j)
       for (int i = 0; i < r_; ++i) {
         const Complex Z = matrix(i, j);
@@ -193,7 +193,7 @@ void DynamicStiffness::add_to(Eigen::MatrixXd& J) const {
 }
 
 void DynamicStiffness::add_order(int n, Eigen::MatrixXd& J_n) const {
-  const ComplexMatrix& Z = formed(harmonics_[static_cast<std::size_t>(layout_.cosine_index(n))]).Z;
+  const ComplexMatrix& Z = formed(harmonics_[static_cast<std::size_t>(layout_.cosine_index(n))]);
   for (int j = 0; j < r_; ++j)
     for (int i = 0; i < r_; ++i) {
       J_n(2 * i, 2 * j) += Z(i, j).real();
@@ -204,13 +204,21 @@ void DynamicStiffness::add_order(int n, Eigen::MatrixXd& J_n) const {
 }
 
 void DynamicStiffness::force(Out f) const {
-  for (Harmonic& at : harmonics_) scatter(formed(at).f, at, f);
+  for (const Harmonic& at : harmonics_) {
+    if (uses_operator_) {
+      v_ = at.force;
+      project(at);
+      scatter(v_, at, f);
+    } else {
+      scatter(at.condensed.f, at, f);
+    }
+  }
 }
 
 void DynamicStiffness::solve(Out x) const {
   for (Harmonic& at : harmonics_) {
     gather(x, at);
-    scatter(continuation::solve_complex(formed(at).Z, y_.head(r_)).col(0), at, x);
+    scatter(continuation::solve_complex(formed(at), y_.head(r_)).col(0), at, x);
   }
 }
 

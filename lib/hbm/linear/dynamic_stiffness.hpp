@@ -64,8 +64,7 @@ class DynamicStiffness {
     bool driven;              // by a force of the scene, whatever its value
     Condensed condensed;
     ComplexVector force{};  // before condensation
-    ModalEquation
-        modal{};  // with many unknowns in modes; then `condensed` has Z and f, where they are formed
+    ModalEquation modal{};  // with many unknowns in modes; then `condensed` has Z alone, where it is formed
     bool is_formed = false;
 
     // X_n of the coordinate whose coefficients begin at `first`; X_0 is real.
@@ -86,7 +85,7 @@ class DynamicStiffness {
   const ComplexMatrix* rates(int k, Harmonic& at) const;
   bool prepare(Harmonic& at);
   bool condense(Harmonic& at);
-  const Condensed& formed(Harmonic& at) const;
+  const ComplexMatrix& formed(Harmonic& at) const;  // Z
   const ComplexMatrix& observations(Harmonic& at) const;
   Complex observed_change(const Harmonic& at, int place) const;  // of v_
   void project(const Harmonic& at) const;                        // v_

@@ -146,8 +146,7 @@ Complex ModalOperator::observed_change(const ModalEquation& at, const ComplexVec
   return sum;
 }
 
-void ModalOperator::form(const ModalEquation& at, const ComplexVector& f, ComplexMatrix& Z,
-                         ComplexVector& condensed) {
+void ModalOperator::form(const ModalEquation& at, ComplexMatrix& Z) {
   const ModalMatrix &M = products_.modes().M, &C = products_.modes().C, &K = products_.modes().K;
   const Factors& g = at.g;
   right_.resize(2 * l_, r_);
@@ -168,9 +167,6 @@ void ModalOperator::form(const ModalEquation& at, const ComplexVector& f, Comple
   for (Eigen::Index j = 0; j < r_; ++j)
     for (Eigen::Index i = 0; i < r_; ++i)
       Z(i, j) = g.combine(M.qq(i, j), C.qq(i, j), K.qq(i, j)) - Complex(re_(i, j), im_(i, j));
-  v_ = f;
-  project(at, v_);
-  condensed = v_.head(r_);
 }
 
 }  // namespace arcslip::hbm

@@ -71,8 +71,8 @@ class ModalOperator {
   const ComplexMatrix& observations(ModalEquation& at, const ComplexVector& f);
   /// -c_l . D^-1 v_l of an observation.
   Complex observed_change(const ModalEquation& at, const ComplexVector& v, int observation) const;
-  /// Z and f, formed.
-  void form(const ModalEquation& at, const ComplexVector& f, ComplexMatrix& Z, ComplexVector& condensed);
+  /// Z, formed.
+  void form(const ModalEquation& at, ComplexMatrix& Z);
 
  private:
   ModalProducts& products_;

@@ -172,8 +172,7 @@ Node harmonics_node(const Harmonics& harmonics) {
   object.push_back({"period", node(harmonics.period)});
   object.push_back({"friction", node(word_of(friction_methods, harmonics.friction))});
   object.push_back({"samples", node(harmonics.samples)});
-  if (harmonics.kinks != Kinks::automatic)
-    object.push_back({"kinks", node(word_of(kinks_words, harmonics.kinks))});
+  object.push_back({"kinks", node(word_of(kinks_words, harmonics.kinks))});
   return {std::move(object)};
 }
 

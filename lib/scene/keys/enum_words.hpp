@@ -34,7 +34,7 @@ inline constexpr std::array<Word<BarEnd>, 3> bar_ends = {
 inline constexpr std::array<Word<Friction>, 2> friction_methods = {
     {{"exact", Friction::exact}, {"sampled", Friction::sampled}}};
 inline constexpr std::array<Word<Kinks>, 3> kinks_words = {
-    {{"automatic", Kinks::automatic}, {"located", Kinks::located}, {"passed", Kinks::passed}}};
+    {{"auto", Kinks::automatic}, {"located", Kinks::located}, {"passed", Kinks::passed}}};
 
 /// Names of quantities in results, which the continuation parameter of a study must not have.
 inline constexpr std::array<std::string_view, 42> result_names = {"kind",

@@ -1,7 +1,7 @@
 #pragma once
 // Small systems of textbooks, and where guesses of their solutions may lie.
 
-#include "problems.hpp"
+#include "continuation/problems.hpp"
 
 #include <functional>
 #include <string>

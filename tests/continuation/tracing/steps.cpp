@@ -277,6 +277,31 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a piece that the branch enters and leaves within a step is seen by the curve") {
+  // u = 2 + p + h (p - a)(b - p) between a and b, and 2 + p elsewhere.
+  constexpr double a = 0.21, b = 0.41, height = 2;
+  const auto inside = [](double p) { return p > a && p < b; };
+  const auto u_of = [=](double p) { return 2 + p + (inside(p) ? height * (p - a) * (b - p) : 0.0); };
+  const auto slope = [=](double p) { return 1 + (inside(p) ? height * (a + b - 2 * p) : 0.0); };
+  const auto problem = graph(u_of, slope, [=](In, In p) { return inside(p[0]) ? 2 : 1; });
+  for (const double initial : {0.05, 0.2, 0.4, 0.6}) {
+    Options options = window(-1, 1);
+    options.step.curve_tolerance = 1e-3;
+    options.step.largest_parameter = 0.3;
+    options.step.initial = initial;
+    options.step.pass_kinks = true;
+    const Branch branch = trace(problem, on(u_of, -1), options, {peak_of_u()});
+    REQUIRE(branch.stop.reason == StopReason::boundary);
+    double worst = 0;
+    for (int k = 0; k <= 2000; ++k) {
+      const Point at = interpolate(branch, branch.points.back().arclength * k / 2000);
+      worst = std::max(worst, std::abs(at.u[0] / u_of(at.parameter) - 1));
+    }
+    CAPTURE(initial, worst, branch.points.size());
+    CHECK(worst < 1e-3);
+  }
+}
+
 TEST_CASE("kinks that a monitor asks for are located where others would be passed") {
   Options options = window(-1, 4);
   options.step.curve_tolerance = 1e-3;

@@ -1,6 +1,6 @@
 // The NLopt layer against minima that are known in closed form or from the literature.
 #include "catch.hpp"
-#include "problems.hpp"
+#include "optimize/problems.hpp"
 
 #include <cmath>
 #include <numbers>

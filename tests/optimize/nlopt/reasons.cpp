@@ -1,7 +1,7 @@
 // Every way in which a minimisation ends, and every input that it refuses.
 #include "catch.hpp"
 #include "contains.hpp"
-#include "problems.hpp"
+#include "optimize/problems.hpp"
 
 #include <chrono>
 #include <stdexcept>

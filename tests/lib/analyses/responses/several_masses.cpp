@@ -7,6 +7,8 @@
 #include <arcslip/results/reasons.hpp>
 
 #include <complex>
+#include <numbers>
+#include <string>
 
 using namespace arcslip;
 
@@ -27,6 +29,50 @@ TEST_CASE("an observed mass that no element touches has the peaks of its own mot
   }
   CHECK(peaks >= 2);
   for (const auto& point : branch.points) CHECK(std::isfinite(point.amplitude));
+}
+
+namespace {
+
+// A mass on a spring and 24 friction dampers, whose slip begins at 24 amplitudes.
+scene::Scene many_dampers() {
+  scene::Scene s = scenes::paper(100, 3);
+  const scene::Part damper = s.elements.front();
+  s.elements.clear();
+  for (int k = 0; k < 24; ++k) {
+    scene::Part each = damper;
+    each.name = "d" + std::to_string(k);
+    each.values[0] /= 24;
+    each.values[2] *= (0.3 + 0.06 * k) / 24;
+    s.elements.push_back(each);
+  }
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("with many dampers kinks are passed, with the same peak and a curve within 1e-3") {
+  scene::Scene s = many_dampers();
+  const auto traced = [&](scene::Kinks kinks) {
+    s.harmonics.kinks = kinks;
+    return observables::frequency_response(s, scenes::window(s)).front();
+  };
+  const auto automatic = traced(scene::Kinks::automatic), passed = traced(scene::Kinks::passed),
+             located = traced(scene::Kinks::located);
+  CHECK(automatic.solver.residuals == passed.solver.residuals);
+  CHECK(2 * passed.solver.residuals < located.solver.residuals);
+  REQUIRE(passed.events.size() == located.events.size());
+  for (std::size_t k = 0; k < passed.events.size(); ++k) {
+    CHECK(passed.events[k].kind == located.events[k].kind);
+    CHECK(reference::error(passed.events[k].point.omega, located.events[k].point.omega) < 1e-10);
+    CHECK(reference::error(passed.events[k].point.amplitude, located.events[k].point.amplitude) < 1e-10);
+  }
+  for (std::size_t k = 0; k < passed.points.size(); k += 12) {
+    const double frequency = passed.points[k].omega / (2 * std::numbers::pi);
+    CHECK(reference::error(passed.points[k].amplitude, scenes::response_at(s, frequency).amplitude) < 1e-8);
+  }
+  s.elements.resize(20);
+  const auto few = traced(scene::Kinks::automatic);
+  CHECK(few.solver.residuals == traced(scene::Kinks::located).solver.residuals);
 }
 
 TEST_CASE("forces of an even harmonic bring in the mean and all harmonics") {

@@ -82,7 +82,10 @@ void add_rest(std::vector<BadScene>& rows) {
                   "found the unknown parameter \"d.load\", must be one of"});
   rows.push_back({"harmonics that are no object", with_harmonics("7"), "/harmonics",
                   "found 7 (a number), must be an object with the keys \"order\", \"accuracy\", \"period\", "
-                  "\"friction\", \"samples\""});
+                  "\"friction\", \"samples\", \"kinks\""});
+  rows.push_back(
+      {"unknown treatment of kinks", with_harmonics("{\"kinks\": \"pass\"}"), "/harmonics/kinks",
+       "found \"pass\", must be one of \"auto\", \"located\", \"passed\"; did you mean \"passed\"?"});
   rows.push_back({"order of zero", with_harmonics("{\"order\": 0}"), "/harmonics/order",
                   "found 0, must be an integer from 1 to 2000"});
   rows.push_back({"order of 2001", with_harmonics("{\"order\": 2001}"), "/harmonics/order",
