@@ -44,7 +44,8 @@ void check(const Moved& of, double within = 0.25) {
   CHECK_FALSE(of.flagged);
   for (std::size_t k = 0; k < of.error.size(); ++k) {
     CAPTURE(k, of.error[k], of.estimate[k]);
-    CHECK(of.estimate[k] == Approx(of.error[k]).epsilon(within));
+    // A design at its bound is there to rounding.
+    CHECK(of.estimate[k] == Approx(of.error[k]).epsilon(within).margin(1e-14));
   }
 }
 
