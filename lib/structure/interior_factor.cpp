@@ -34,7 +34,8 @@ bool InteriorFactor::factorize(const Sparse& A) {
   return of_.info() == Eigen::Success;
 }
 
-MatrixXd InteriorFactor::solve(const MatrixXd& right) const {
+template <class Columns>
+MatrixXd InteriorFactor::solve_some_at_once(const Columns& right) const {
   MatrixXd x(right.rows(), right.cols());
   for (Index from = 0; from < right.cols(); from += columns_at_once) {
     listen(control_);
@@ -45,15 +46,12 @@ MatrixXd InteriorFactor::solve(const MatrixXd& right) const {
   return x;
 }
 
+MatrixXd InteriorFactor::solve(const MatrixXd& right) const {
+  return solve_some_at_once(right);
+}
+
 MatrixXd InteriorFactor::solve(const Sparse& right) const {
-  MatrixXd x(right.rows(), right.cols());
-  for (Index from = 0; from < right.cols(); from += columns_at_once) {
-    listen(control_);
-    const Index count = std::min(columns_at_once, right.cols() - from);
-    x.middleCols(from, count) = of_.solve(MatrixXd(right.middleCols(from, count)));
-  }
-  listen(control_);
-  return x;
+  return solve_some_at_once(right);
 }
 
 }  // namespace arcslip::structure

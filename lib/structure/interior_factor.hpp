@@ -29,6 +29,9 @@ class InteriorFactor {
     std::optional<Eigen::Index> failed_at() const;
   };
 
+  template <class Columns>
+  Eigen::MatrixXd solve_some_at_once(const Columns& right) const;
+
   const control::Control& control_;
   Cholesky of_;
 };
