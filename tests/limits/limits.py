@@ -73,18 +73,25 @@ def lines_of_a_file(sources, _):
         yield Found(path, len(sources.texts[path].splitlines()))
 
 
+def tags(sources, kinds):
+    """Yields name, file, kind and fields of what ctags finds."""
+    try:
+        found = subprocess.run(["ctags", "-L", "-", "--languages=C++", f"--kinds-C++={kinds}", "--fields=KneSsZ", "-f", "-"],
+                               check=True, cwd=sources.folder, input="\n".join(sources.code), capture_output=True,
+                               text=True).stdout
+    except (FileNotFoundError, subprocess.CalledProcessError):
+        sys.exit("There is no Universal Ctags, which finds the functions: install universal-ctags.")
+    for tag in found.splitlines():
+        name, file, *_, others = tag.split("\t", 3)
+        kind, *others = others.split("\t")
+        yield name, file, kind, dict(other.split(":", 1) for other in others if ":" in other)
+
+
 @functools.cache
 def functions(sources):
     """Returns file, name and lines of each function."""
     found = []
-    try:
-        tags = subprocess.run(["ctags", "-L", "-", "--languages=C++", "--kinds-C++=f", "--fields=nesZ", "-f", "-"], check=True,
-                              cwd=sources.folder, input="\n".join(sources.code), capture_output=True, text=True).stdout
-    except (FileNotFoundError, subprocess.CalledProcessError):
-        sys.exit("There is no Universal Ctags, which finds the functions: install universal-ctags.")
-    for tag in tags.splitlines():
-        name, file, _, *others = tag.split("\t")
-        fields = dict(other.split(":", 1) for other in others if ":" in other)
+    for name, file, _, fields in tags(sources, "f"):
         scope = fields.get("scope", "")
         if scope.startswith(("class:", "struct:")):
             name = scope.split(":")[-1] + "::" + name
@@ -101,6 +108,20 @@ def lines_of_a_function(sources, _):
 def complexity_of_a_function(sources, _):
     for file, name, lines in functions(sources):
         yield Found(f"{file}: {name}", 1 + len(DECISION.findall("\n".join(lines))))
+
+
+def files_with_a_name(sources, _):
+    """Counts the files of a room that have a name of their own: its files are compiled as one (cmake/ArcslipTarget.cmake)."""
+    files = collections.defaultdict(set)
+    for name, file, kind, fields in tags(sources, "fvscg"):
+        scope = fields.get("scope", "")
+        if not re.search(r"^namespace:.*__anon\w+$", scope) or name.startswith("__anon") or not file.endswith(".cpp"):
+            continue
+        room = "/".join(file.split("/")[:2 if file.startswith("lib/") else 1])
+        arguments = re.sub(r"\W+", " ", fields.get("signature", "")) if kind == "function" else ""
+        files[room, re.sub(r"__anon\w+", "", scope), name, arguments].add(file)
+    for (room, _, name, _), of in files.items():
+        yield Found(f"{room}: {name}", len(of), f", in {', '.join(sorted(of))}")
 
 
 def headers_with_one_user(sources, _):
@@ -151,7 +172,8 @@ def retired_words(sources, table):
                         f", in lines {', '.join(map(str, lines))}; instead: {(words | names)[word]}")
 
 
-MEASURES = [files_in_a_folder, lines_of_a_file, lines_of_a_function, complexity_of_a_function, headers_with_one_user,
+MEASURES = [files_in_a_folder, lines_of_a_file, lines_of_a_function, complexity_of_a_function, files_with_a_name,
+            headers_with_one_user,
             repeated_blocks, retired_words]
 
 

@@ -53,6 +53,16 @@ class Limits(unittest.TestCase):
         self.expect(files | {"room/below/31.txt": ""})
         self.expect(files | {"room/31.txt": ""}, "lib/room: files in a folder: 31, must be at most 30")
 
+    def test_a_name_in_two_files_that_are_compiled_as_one(self):
+        own = "namespace a {\nnamespace {\nconstexpr int most = 3;\nint f(double x) { return 1; }\n}\n}\n"
+        other = own.replace("most", "least").replace("double", "int")
+        self.expect({"x/a.cpp": own, "y/b.cpp": own})
+        self.expect({"x/a.cpp": own, "x/below/b.cpp": other})
+        self.expect({"x/a.cpp": own, "x/below/b.cpp": other.replace("least", "most")},
+                    "lib/x: most: files with a name: 2, must be at most 1, in lib/x/a.cpp, lib/x/below/b.cpp")
+        self.expect({"x/a.cpp": own, "x/below/b.cpp": other.replace("int x", "double x")},
+                    "lib/x: f: files with a name: 2, must be at most 1")
+
     def test_a_file_with_one_line_too_many(self):
         lines = [f"int i_{i};" for i in range(601)]
         self.expect({"a.cpp": "\n".join(lines[:600])})

@@ -11,7 +11,7 @@ namespace {
 constexpr Eigen::Index quick_factors = 100;
 
 // Up to here matrices cost no more than products with two or three motions.
-constexpr int few_unknowns = 8;
+constexpr int most_as_matrices = 8;
 
 Eigen::MatrixXd observed(const model::Model& model, const Eigen::MatrixXd& P) {
   Eigen::MatrixXd responses(P.cols(), 1 + static_cast<Eigen::Index>(model.others.size()));
@@ -38,7 +38,7 @@ DynamicStiffness::DynamicStiffness(const model::Model& model, const Coordinates&
       y_(r_ + l_),
       v_(r_ + l_) {
   if (coordinates.modes) modal_.emplace(*coordinates.modes, responses_);
-  if (coordinates.modes && r_ > few_unknowns) operator_.emplace(parts_.products(), responses_);
+  if (coordinates.modes && r_ > most_as_matrices) operator_.emplace(parts_.products(), responses_);
   if (model.absolute) {
     ground_.front() = model.response.sparseView();
     std::copy(model.others.begin(), model.others.end(), ground_.begin() + 1);
@@ -144,7 +144,7 @@ void DynamicStiffness::differentiate(int k, const In& u, const Harmonic& at, dou
 }
 
 const ComplexMatrix* DynamicStiffness::rates(int k, Harmonic& at) const {
-  if (k != model::frequency || r_ > few_unknowns || !parts_.modes() || !parts_.symmetric()) return nullptr;
+  if (k != model::frequency || r_ > most_as_matrices || !parts_.modes() || !parts_.symmetric()) return nullptr;
   if (!at.condensed.has_rates) modal_->differentiate(parts_, at.order, at.condensed);
   return &at.condensed.rates;
 }
@@ -168,7 +168,7 @@ void DynamicStiffness::residual(In u, double force_factor, Out R) const {
     gather(u, at);
     if ((y_.head(r_).array() == 0.0).all())
       v_.head(r_).setZero();
-    else if (r_ <= few_unknowns)
+    else if (r_ <= most_as_matrices)
       v_.head(r_).noalias() = at.condensed.Z.lazyProduct(y_.head(r_));
     else
       v_.head(r_).noalias() = at.condensed.Z * y_.head(r_);
