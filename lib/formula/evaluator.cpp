@@ -1,0 +1,196 @@
+#include <arcslip/formula/evaluator.hpp>
+
+#include <arcslip/formula/operations.hpp>
+
+#include <algorithm>
+
+namespace arcslip::formula {
+namespace {
+
+// A factor 0 stands for what a choice does not take: its derivative may be anything.
+double chained(double adjoint, double derivative) {
+  return adjoint == 0 ? 0.0 : adjoint * derivative;
+}
+
+template <class Function>
+void for_each(std::size_t count, Function function) {
+  for (std::size_t s = 0; s < count; ++s) function(s);
+}
+
+}  // namespace
+
+Evaluator::Evaluator(const Formula& formula)
+    : formula_(formula), varies_(formula.nodes().size()), active_(formula.nodes().size()) {}
+
+void Evaluator::set_marks(std::span<const InputValues> inputs, std::span<const Derivative> derivatives) {
+  const auto nodes = formula_.nodes();
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const Node& node = nodes[n];
+    bool varies = false, active = false;
+    if (node.operation == Operation::input) {
+      varies = inputs[static_cast<std::size_t>(node.input())].varies;
+      for (const Derivative& derivative : derivatives) active = active || derivative.input == node.input();
+    } else {
+      for (const int argument : {node.a, node.b, node.c}) {
+        if (argument < 0) continue;
+        varies = varies || varies_[static_cast<std::size_t>(argument)];
+        active = active || active_[static_cast<std::size_t>(argument)];
+      }
+    }
+    varies_[n] = varies;
+    active_[n] = active;
+  }
+}
+
+void Evaluator::compute(std::span<const InputValues> inputs, std::size_t samples,
+                        std::span<double* const> values, std::span<const Derivative> derivatives) {
+  const auto results = formula_.results();
+  set_marks(inputs, derivatives);
+  const std::size_t wanted = std::min(samples, block);
+  if (stride_ < wanted) {
+    stride_ = wanted;
+    values_.assign(formula_.nodes().size() * stride_, 0);
+    adjoints_.assign(values_.size(), 0);
+  }
+  for (std::size_t from = 0; from < samples; from += block) {
+    const std::size_t count = std::min(block, samples - from);
+    compute_values(inputs, from, count);
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      if (k < values.size() && values[k] != nullptr)
+        std::copy_n(values_of(results[k]), count, values[k] + from);
+      bool differentiated = false;
+      for (const Derivative& derivative : derivatives) {
+        if (derivative.expression != k) continue;
+        if (!differentiated) go_back(k, count);
+        differentiated = true;
+        std::fill_n(derivative.to + from, count, 0.0);
+      }
+      if (!differentiated) continue;
+      for (int n = 0; n <= results[k]; ++n) {
+        const Node& node = formula_.nodes()[static_cast<std::size_t>(n)];
+        if (node.operation != Operation::input || !active_[static_cast<std::size_t>(n)]) continue;
+        for (const Derivative& derivative : derivatives)
+          if (derivative.expression == k && derivative.input == node.input())
+            std::copy_n(adjoints_of(n), count, derivative.to + from);
+      }
+    }
+  }
+}
+
+void Evaluator::compute_values(std::span<const InputValues> inputs, std::size_t from, std::size_t count) {
+  const auto nodes = formula_.nodes();
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const Node& node = nodes[n];
+    double* const __restrict f = values_of(static_cast<int>(n));
+    if (node.operation == Operation::input) {
+      const InputValues& input = inputs[static_cast<std::size_t>(node.input())];
+      if (input.varies)
+        std::copy_n(input.at + from, count, f);
+      else
+        std::fill_n(f, count, *input.at);
+      continue;
+    }
+    const double* const a = node.a < 0 ? f : values_of(node.a);
+    const double* const b = node.b < 0 ? f : values_of(node.b);
+    const double* const c = node.c < 0 ? f : values_of(node.c);
+    const double second = node.operation == Operation::whole_power ? node.value : *b;
+    if (!varies_[n])
+      std::fill_n(
+          f, count,
+          node.operation == Operation::constant ? node.value : rule(node.operation).value(*a, second, *c));
+    else
+      set_values(node, count, f, a, b, c);
+  }
+}
+
+void Evaluator::set_values(const Node& node, std::size_t count, double* __restrict f, const double* a,
+                           const double* b, const double* c) {
+  const auto value = rule(node.operation).value;
+  switch (node.operation) {
+    case Operation::negate:
+      for_each(count, [&](std::size_t s) { f[s] = -a[s]; });
+      break;
+    case Operation::add:
+      for_each(count, [&](std::size_t s) { f[s] = a[s] + b[s]; });
+      break;
+    case Operation::subtract:
+      for_each(count, [&](std::size_t s) { f[s] = a[s] - b[s]; });
+      break;
+    case Operation::multiply:
+      for_each(count, [&](std::size_t s) { f[s] = a[s] * b[s]; });
+      break;
+    case Operation::divide:
+      for_each(count, [&](std::size_t s) { f[s] = a[s] / b[s]; });
+      break;
+    case Operation::whole_power:
+      if (node.value == 2)
+        for_each(count, [&](std::size_t s) { f[s] = a[s] * a[s]; });
+      else if (node.value == 3)
+        for_each(count, [&](std::size_t s) { f[s] = a[s] * (a[s] * a[s]); });
+      else
+        for_each(count, [&](std::size_t s) { f[s] = value(a[s], node.value, 0); });
+      break;
+    default:
+      for_each(count, [&](std::size_t s) { f[s] = value(a[s], b[s], c[s]); });
+  }
+}
+
+// The derivatives of an expression by each node: 1 by itself, and those by the arguments of a node from that
+// by the node, by the chain rule.
+void Evaluator::go_back(std::size_t expression, std::size_t count) {
+  const auto nodes = formula_.nodes();
+  const int last = formula_.results()[expression];
+  for (int n = 0; n < last; ++n)
+    if (active_[static_cast<std::size_t>(n)]) std::fill_n(adjoints_of(n), count, 0.0);
+  std::fill_n(adjoints_of(last), count, 1.0);
+  for (int n = last; n >= 0; --n) {
+    const Node& node = nodes[static_cast<std::size_t>(n)];
+    if (active_[static_cast<std::size_t>(n)] && node.operation != Operation::input) pass_on(node, n, count);
+  }
+}
+
+void Evaluator::pass_on(const Node& node, int n, std::size_t count) {
+  const double* const __restrict g = adjoints_of(n);
+  const double *const f = values_of(n), *const a = values_of(node.a);
+  const double* const b = node.b < 0 ? a : values_of(node.b);
+  // Adds the derivative, a function of the sample, to that by an argument.
+  const auto add = [&](int argument, auto derivative) {
+    if (argument < 0 || !active_[static_cast<std::size_t>(argument)]) return;
+    double* const to = adjoints_of(argument);
+    for (std::size_t s = 0; s < count; ++s) to[s] += derivative(s);
+  };
+  const Rule& by = rule(node.operation);
+  switch (node.operation) {
+    case Operation::add:
+      add(node.a, [&](std::size_t s) { return g[s]; });
+      add(node.b, [&](std::size_t s) { return g[s]; });
+      break;
+    case Operation::subtract:
+      add(node.a, [&](std::size_t s) { return g[s]; });
+      add(node.b, [&](std::size_t s) { return -g[s]; });
+      break;
+    case Operation::multiply:
+      add(node.a, [&](std::size_t s) { return chained(g[s], b[s]); });
+      add(node.b, [&](std::size_t s) { return chained(g[s], a[s]); });
+      break;
+    case Operation::whole_power:
+      if (node.value == 2)
+        add(node.a, [&](std::size_t s) { return chained(g[s], 2 * a[s]); });
+      else if (node.value == 3)
+        add(node.a, [&](std::size_t s) { return chained(g[s], 3 * (a[s] * a[s])); });
+      else
+        add(node.a, [&](std::size_t s) { return chained(g[s], by.by_a(a[s], node.value, f[s])); });
+      break;
+    case Operation::choose:
+      add(node.b, [&](std::size_t s) { return a[s] != 0 ? g[s] : 0.0; });
+      add(node.c, [&](std::size_t s) { return a[s] != 0 ? 0.0 : g[s]; });
+      break;
+    default:
+      if (by.by_a != nullptr)
+        add(node.a, [&](std::size_t s) { return chained(g[s], by.by_a(a[s], b[s], f[s])); });
+      if (by.by_b != nullptr)
+        add(node.b, [&](std::size_t s) { return chained(g[s], by.by_b(a[s], b[s], f[s])); });
+  }
+}
+
+}  // namespace arcslip::formula
