@@ -46,13 +46,20 @@ continuation::SymmetricModes shifted_modes(const Eigen::MatrixXd& M, const Eigen
   return {};
 }
 
-}  // namespace
-
-namespace {
-
 struct LinearizedMatrices {
   Eigen::MatrixXd M, C, K;
 };
+
+// The largest stiffness of contacts and other laws of one displacement; where a force without memory couples
+// displacements, or pushes away from rest, its tangent.
+Eigen::MatrixXd stiffness_at_rest(const elements::Law& law, elements::Fields fields) {
+  const int d = law.directions();
+  const Eigen::MatrixXd tangent = elements::tangent_at_rest(law, fields);
+  if (law.memory() == 0 && (d > 1 || tangent(0, 0) < 0)) return tangent;
+  Eigen::VectorXd largest(d);
+  for (int i = 0; i < d; ++i) largest[i] = law.stiffness(fields, i, 0);
+  return largest.asDiagonal();
+}
 
 LinearizedMatrices linearized(const HbmProblem& problem, const Vector& p, const HbmEvaluator* at,
                               double omega) {
@@ -73,9 +80,10 @@ LinearizedMatrices linearized(const HbmProblem& problem, const Vector& p, const 
     for (int i = 0; i < d; ++i) {
       const DirectionInY direction(P, element.directions[static_cast<std::size_t>(i)]);
       for (const auto& [row, value] : direction.entries()) E(row, i) = value;
-      if (!at) Ke(i, i) = element.law->stiffness(fields, i, 0);
     }
-    if (at) {
+    if (!at) {
+      Ke = stiffness_at_rest(*element.law, fields);
+    } else {
       const ComplexMatrix D =
           fundamental_stiffness(problem.harmonics(), *element.law, at->element(e).jacobian());
       Ke = 0.5 * (D + D.transpose()).real();

@@ -25,7 +25,7 @@ struct LinearMode {
 ///   M x'' + (C + C_e) x' + (K + K_e) x = 0
 ///
 /// with the stiffness K_e and the damping C_e of the elements in the fundamental of the motion where `at` is:
-/// after a move with the Jacobian. Without `at`: with the largest stiffness of the elements at rest. omega:
+/// after a move with the Jacobian. Without `at`: with the stiffness of the elements at rest. omega:
 /// at which C_e and a loss factor are taken. Empty: no such modes, as where M and K are singular together.
 std::vector<LinearMode> linear_modes(const HbmProblem& problem, const Vector& p, const HbmEvaluator* at,
                                      double omega);

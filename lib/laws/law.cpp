@@ -35,6 +35,19 @@ bool LawType::has_wear(const scene::Settings& options) const {
   return law(options)->dissipative();
 }
 
+Eigen::MatrixXd tangent_at_rest(const Law& law, Fields fields) {
+  const int d = law.directions();
+  if (law.memory() > 0) {
+    Eigen::VectorXd largest(d);
+    for (int i = 0; i < d; ++i) largest[i] = law.stiffness(fields, i, 0);
+    return largest.asDiagonal();
+  }
+  StepEnd at(d, 0);
+  Eigen::VectorXd memory(0);
+  law.begin(fields, Eigen::VectorXd::Zero(d), memory, at);
+  return 0.5 * (at.f_q + at.f_q.transpose());
+}
+
 std::shared_ptr<const Law> law_of(const scene::Part& part) {
   const auto* type = dynamic_cast<const LawType*>(part.type);
   if (type == nullptr) throw std::invalid_argument("the element \"" + part.name + "\" has no law of force");

@@ -52,17 +52,23 @@ struct Traits {
   double limit = std::numeric_limits<double>::infinity();  // N: the largest force of friction
 };
 
+/// What a law keeps between its calls with the same SampledForce.
+struct Scratch {
+  virtual ~Scratch() = default;
+};
+
 /// The force of a law without memory at several q at once: a row for each. A law sets everything that may
 /// differ from its previous values here.
 struct SampledForce {
   SampledForce() = default;
   SampledForce(Eigen::Index rows, Eigen::Index directions, Eigen::Index fields);
 
-  Eigen::MatrixXd f;        // a column for each direction, N
-  Eigen::MatrixXd f_q;      // df_i/dq_j in column j * directions + i
-  Eigen::MatrixXd f_v;      // df_i/dv_j likewise, where the law is rate-dependent
-  Eigen::MatrixXd f_field;  // df_i/d(fields[k]) in column k * directions + i
-  std::uint64_t piece = 0;  // another number where many samples go over a kink of f together
+  Eigen::MatrixXd f;                 // a column for each direction, N
+  Eigen::MatrixXd f_q;               // df_i/dq_j in column j * directions + i
+  Eigen::MatrixXd f_v;               // df_i/dv_j likewise, where the law is rate-dependent
+  Eigen::MatrixXd f_field;           // df_i/d(fields[k]) in column k * directions + i
+  std::uint64_t piece = 0;           // another number where many samples go over a kink of f together
+  std::unique_ptr<Scratch> scratch;  // the law's own; none at first
 };
 
 /// The start of a step in time: q, z and the force f.
@@ -75,6 +81,7 @@ struct StepEnd {
 
   Eigen::VectorXd f, dz;  // the force, N, and the change of the memory
   Eigen::VectorXd v;      // the velocities there, m/s: given to laws that are rate-dependent
+  double phase = 0;       // of the excitation there, rad: given to laws that depend on it
   // Their derivatives, of f and of z + dz: by the displacement at the end, by the memory at the start, and by
   // the displacement at the start, with the others fixed.
   Eigen::MatrixXd f_q, f_z, f_start;
@@ -86,6 +93,7 @@ struct StepEnd {
 
   SampledForce sample;  // for the law's own use, kept for the next step
   Eigen::MatrixXd sample_q, sample_v;
+  Eigen::VectorXd sample_phase;
 };
 
 class Law;
@@ -121,6 +129,20 @@ class Law {
   virtual bool dissipative() const { return has_contact(); }
   /// Whether the force depends on velocities: Element::set_frequency(), StepEnd::v. Its memory may not.
   virtual bool rate_dependent() const { return false; }
+  /// Whether the force depends on the phase of the excitation: StepEnd::phase. Such a law has no free
+  /// vibration, and no symmetry in time.
+  virtual bool phase_dependent() const { return false; }
+  /// Whether the force of a law without memory may jump along a smooth motion: then no multipliers are known.
+  virtual bool may_jump() const { return false; }
+  /// Adds the angles in one span of the harmonics at which the force of a law without memory has kinks, u as
+  /// in Element::move_to, at a base frequency (rad/s).
+  virtual void add_kinks(const Harmonics& harmonics, In u, double base_frequency, Fields fields,
+                         std::vector<double>& angles) const {
+    static_cast<void>(harmonics), static_cast<void>(u), static_cast<void>(base_frequency);
+    static_cast<void>(fields), static_cast<void>(angles);
+  }
+  /// Whether its coefficients are those of samples that leave an error, which falls with the order.
+  virtual bool approximates() const { return false; }
   /// Whether its force at rest may be any within its limits, as of friction without a stiffness. Harmonic
   /// balance reports motions that stop (Element::jump_over_bend()); in time it is refused.
   virtual bool set_valued() const { return false; }
@@ -203,6 +225,10 @@ class PlainLaw : public LawType, public Law {
     return {std::shared_ptr<const void>(), this};
   }
 };
+
+/// The symmetric part of df/dq at rest (directions x directions, N/m); of a law with a memory its largest
+/// stiffnesses.
+Eigen::MatrixXd tangent_at_rest(const Law& law, Fields fields);
 
 /// The law of an element of a scene. Throws std::invalid_argument if its type is not a law.
 std::shared_ptr<const Law> law_of(const scene::Part& part);

@@ -20,9 +20,9 @@ void RateLaw::sample(Fields fields, const Eigen::MatrixXd& q, SampledForce& at) 
   for (Eigen::Index s = 0; s < q.rows(); ++s) set_rate_force(*this, fields, s, q(s, 0), 0, at);
 }
 
-void RateLaw::sample_moving(Fields fields, const Eigen::MatrixXd& q, const Eigen::MatrixXd& v,
-                            SampledForce& at) const {
-  for (Eigen::Index s = 0; s < q.rows(); ++s) set_rate_force(*this, fields, s, q(s, 0), v(s, 0), at);
+void RateLaw::sample_motion(Fields fields, const SampledMotion& motion, Wanted, SampledForce& at) const {
+  for (Eigen::Index s = 0; s < motion.q.rows(); ++s)
+    set_rate_force(*this, fields, s, motion.q(s, 0), motion.v(s, 0), at);
 }
 
 void RateLaw::step(Fields fields, const StepStart& start, In dq, StepEnd& end) const {

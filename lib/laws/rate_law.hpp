@@ -23,8 +23,7 @@ class RateLaw : public SampledLaw {
   double stored(Fields, In, In) const final { return 0; }
 
   void sample(Fields fields, const Eigen::MatrixXd& q, SampledForce& at) const final;  // at rest
-  void sample_moving(Fields fields, const Eigen::MatrixXd& q, const Eigen::MatrixXd& v,
-                     SampledForce& at) const final;
+  void sample_motion(Fields fields, const SampledMotion& motion, Wanted wanted, SampledForce& at) const final;
   void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const final;
 };
 

@@ -3,6 +3,7 @@
 #include <arcslip/fourier/samples.hpp>
 
 #include <utility>
+#include <vector>
 
 namespace arcslip::elements {
 namespace {
@@ -14,16 +15,20 @@ class SampledElement final : public Element {
         h_(h),
         directions_(law.directions()),
         moves_(law.rate_dependent()),
-        samples_(h, h.odd ? (law.samples(h.order) + 1) / 2 : law.samples(h.order)),
+        samples_(h, h.odd ? (law.samples(h) + 1) / 2 : law.samples(h)),
         moments_(h),
         q_(samples_.count(), directions_),
         v_(moves_ ? samples_.count() : 0, directions_),
+        phase_(law.phase_dependent() ? samples_.count() : 0),
         at_(samples_.count(), directions_, static_cast<Eigen::Index>(law.fields({}).size())),
         F_(directions_ * h.size()),
         J_(F_.size(), F_.size()),
         slope_(h.size()),
         weights_(samples_.count()),
-        block_(moves_ ? h.size() : 0, h.size()) {}
+        block_(moves_ ? h.size() : 0, h.size()) {
+    for (Eigen::Index s = 0; s < phase_.size(); ++s)
+      phase_[s] = h.period * samples_.angle(static_cast<int>(s));
+  }
 
   void set_frequency(double base_frequency) override { frequency_ = base_frequency; }
 
@@ -36,10 +41,11 @@ class SampledElement final : public Element {
         slope_ *= frequency_;
         samples_.values(slope_, v_.col(i));
       }
-      law_.sample_moving(fields, q_, v_, at_);
-    } else {
-      law_.sample(fields, q_, at_);
     }
+    fields_.assign(fields.begin(), fields.end());
+    has_field_derivatives_ = false;
+    has_tangent_ = jacobian;
+    law_.sample_motion(fields_, {q_, v_, phase_}, jacobian ? Wanted::tangent : Wanted::force, at_);
     for (Eigen::Index i = 0; i < directions_; ++i) project(at_.f.col(i), F_.segment(i * c, c));
     if (!jacobian) return;
     J_.setZero();
@@ -59,6 +65,8 @@ class SampledElement final : public Element {
   void frequency_derivative(Out dF) const override {
     dF.setZero();
     if (!moves_) return;
+    if (!has_tangent_) law_.sample_motion(fields_, {q_, v_, phase_}, Wanted::tangent, at_);
+    has_tangent_ = true;
     const Eigen::Index c = h_.size();
     for (Eigen::Index i = 0; i < directions_; ++i) {
       weights_.setZero();
@@ -69,6 +77,8 @@ class SampledElement final : public Element {
   }
   void field_derivative(int field, Out dF) const override {
     const Eigen::Index c = h_.size();
+    if (!has_field_derivatives_) law_.sample_motion(fields_, {q_, v_, phase_}, Wanted::by_fields, at_);
+    has_field_derivatives_ = true;
     for (Eigen::Index i = 0; i < directions_; ++i)
       project(at_.f_field.col(field * directions_ + i), dF.segment(i * c, c));
   }
@@ -101,7 +111,10 @@ class SampledElement final : public Element {
   Samples samples_;
   Moments moments_;
   Eigen::MatrixXd q_, v_;
-  SampledForce at_;
+  Eigen::VectorXd phase_;
+  std::vector<double> fields_;
+  mutable SampledForce at_;
+  mutable bool has_field_derivatives_ = false, has_tangent_ = false;
   Eigen::VectorXd F_;
   Eigen::MatrixXd J_;
   double frequency_ = 0;
@@ -112,16 +125,16 @@ class SampledElement final : public Element {
 
 void set_sample_force(const SampledLaw& law, Fields fields, StepEnd& at) {
   const Eigen::Index d = at.f.size();
-  if (at.sample.f.size() == 0) at.sample = {1, d, static_cast<Eigen::Index>(fields.size())};
-  if (law.rate_dependent()) {
-    at.sample_v = at.v.transpose();
-    law.sample_moving(fields, at.sample_q, at.sample_v, at.sample);
-    at.f_v = at.sample.f_v.reshaped(d, d);
-  } else {
-    law.sample(fields, at.sample_q, at.sample);
+  if (at.sample.f.size() == 0) {
+    at.sample = {1, d, static_cast<Eigen::Index>(fields.size())};
+    at.sample_phase.resize(1);
   }
+  at.sample_v = at.v.transpose();
+  at.sample_phase[0] = at.phase;
+  law.sample_motion(fields, {at.sample_q, at.sample_v, at.sample_phase}, Wanted::tangent, at.sample);
   at.f = at.sample.f.row(0).transpose();
   at.f_q = at.sample.f_q.reshaped(d, d);
+  if (law.rate_dependent()) at.f_v = at.sample.f_v.reshaped(d, d);
 }
 
 }  // namespace
@@ -137,6 +150,7 @@ Eigen::MatrixXd SampledLaw::force_at(const Harmonics& h, In u, Fields fields, An
 Eigen::MatrixXd SampledLaw::moving_force_at(const Harmonics& h, In u, double base_frequency, Fields fields,
                                             Angles angles) const {
   Eigen::MatrixXd q(static_cast<Eigen::Index>(angles.size()), directions()), v(q.rows(), q.cols());
+  const Eigen::VectorXd phase = h.period * Eigen::Map<const Eigen::VectorXd>(angles.data(), q.rows());
   for (Eigen::Index s = 0; s < q.rows(); ++s)
     for (Eigen::Index i = 0; i < q.cols(); ++i) {
       const Values at =
@@ -145,7 +159,7 @@ Eigen::MatrixXd SampledLaw::moving_force_at(const Harmonics& h, In u, double bas
       v(s, i) = base_frequency * at.d1;
     }
   SampledForce at(q.rows(), directions(), static_cast<Eigen::Index>(fields.size()));
-  sample_moving(fields, q, v, at);
+  sample_motion(fields, {q, v, phase}, Wanted::force, at);
   return std::move(at.f);
 }
 

@@ -13,17 +13,27 @@
 
 namespace arcslip::elements {
 
+/// What a law is sampled at: a row for each sample, a column for each direction.
+struct SampledMotion {
+  const Eigen::MatrixXd& q;      // m
+  const Eigen::MatrixXd& v;      // m/s, of laws that are rate-dependent
+  const Eigen::VectorXd& phase;  // of the excitation, rad, of laws that depend on it
+};
+
+/// What is needed of a sampled force. A law may always set all of it.
+enum class Wanted { force, tangent, by_fields };  // f; with f_q and f_v; f_field alone
+
 class SampledLaw : public PlainLaw {
  public:
-  /// Samples in a period for harmonics up to N.
-  virtual int samples(int order) const { return 4 * order + 2; }
+  /// Samples in a period of the motion.
+  virtual int samples(const Harmonics& harmonics) const { return 4 * harmonics.order + 2; }
   /// Force and derivatives at the displacements q, a column for each direction. `at` has its size.
   virtual void sample(Fields fields, const Eigen::MatrixXd& q, SampledForce& at) const = 0;
-  /// The same at velocities v (m/s), likewise a column each, and with f_v: of laws that are rate-dependent.
-  virtual void sample_moving(Fields fields, const Eigen::MatrixXd& q, const Eigen::MatrixXd& v,
+  /// The same of laws that depend on more than that, with f_v where they are rate-dependent.
+  virtual void sample_motion(Fields fields, const SampledMotion& motion, Wanted wanted,
                              SampledForce& at) const {
-    static_cast<void>(v);
-    sample(fields, q, at);
+    static_cast<void>(wanted);
+    sample(fields, motion.q, at);
   }
 
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling& sampling) const override;

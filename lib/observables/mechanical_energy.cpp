@@ -78,7 +78,6 @@ double MechanicalEnergy::potential(const hbm::HbmEvaluator& at, double theta) {
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const elements::Law& law = *problem_->model().elements[e].law;
     const Element& rest = elements_[e];
-    if (law.rate_dependent()) continue;
     const elements::In motion = at.element_motion(e);
     sum += stored_energy(law, rest.fields, h, motion, theta) - rest.stored -
            rest.f.dot(displacements(law, h, motion, phi_) - rest.q);

@@ -52,7 +52,6 @@ VectorXd marched(const elements::Law& law, elements::Fields fields, const elemen
 
 double stored_energy(const elements::Law& law, elements::Fields fields, const elements::Harmonics& h,
                      elements::In motion, double theta) {
-  if (law.rate_dependent()) return 0;
   VectorXd q(law.directions()), z = VectorXd::Zero(law.memory());
   for (int i = 0; i < law.directions(); ++i)
     q[i] = elements::series_values(h, motion.segment(i * h.size(), h.size()), theta).x;

@@ -200,12 +200,12 @@ std::optional<Truncation::Refined> Truncation::refined(const continuation::Accep
   return Refined{wide_.problem(), base_, at, std::move(p)};
 }
 
-// Laws of the velocity that are sampled have an error below any power of the samples, once these resolve
-// their forces: in the harmonics kept, twice as many then change next to nothing.
+// Smooth laws that are sampled have an error below any power of the samples, once these resolve their forces: in
+// the harmonics kept, twice as many then change next to nothing.
 bool Truncation::samples_too_few() const {
   const auto& model = problem_.model();
   if (!problem_.sampling().exact || std::none_of(model.elements.begin(), model.elements.end(),
-                                                 [](const auto& e) { return e.law->rate_dependent(); }))
+                                                 [](const auto& e) { return e.law->approximates(); }))
     return false;
   const elements::Harmonics &kept = problem_.harmonics(), &all = wide_.problem().harmonics();
   double change = 0, largest = 0;

@@ -221,24 +221,10 @@ std::optional<std::vector<ResonantMode>> resonant_modes(const model::Model& mode
 
 namespace {
 
-// df/dq at rest of an element without a contact, symmetric; of one with a memory its largest stiffnesses.
-Eigen::MatrixXd tangent_at_rest(const elements::Law& law, const std::vector<double>& fields) {
-  const int d = law.directions();
-  if (law.memory() > 0) {
-    Eigen::VectorXd largest(d);
-    for (int i = 0; i < d; ++i) largest[i] = law.stiffness(fields, i, 0);
-    return largest.asDiagonal();
-  }
-  elements::StepEnd at(d, 0);
-  Eigen::VectorXd memory(0);
-  law.begin(fields, Eigen::VectorXd::Zero(d), memory, at);
-  return 0.5 * (at.f_q + at.f_q.transpose());
-}
-
 // Of an element in its directions. rigid: of friction without a stiffness that sticks.
 Eigen::MatrixXd tangent(const elements::Law& law, const std::vector<double>& fields, Contacts contacts,
                         double rigid) {
-  if (!is_contact(law)) return tangent_at_rest(law, fields);
+  if (!is_contact(law)) return elements::tangent_at_rest(law, fields);
   Eigen::VectorXd k = Eigen::VectorXd::Zero(law.directions());
   for (int i = 0; contacts == Contacts::stuck && i < law.directions(); ++i) {
     const double stiffness = law.traits(fields, i).stiffness;

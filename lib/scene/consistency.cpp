@@ -142,6 +142,12 @@ void check_cyclic(const Scene& scene, Faults& faults) {
           "found " + shown(scene.damping[i].type->name()) +
               ", must be another damping where masses, springs or matrices reach into the next sector: the "
               "modes of a ring are not those of one sector; give \"cyclic\" the key \"full\": true");
+  for (std::size_t i = 0; i < scene.elements.size(); ++i)
+    if (scene.elements[i].type->depends_on_phase(scene.elements[i].options))
+      faults.add(child("/elements", i),
+                 "found a force that depends on the phase of the excitation, which is another one in each "
+                 "sector; give "
+                 "\"cyclic\" the key \"full\": true");
   if (!has_faces) return;
   if (scene.cyclic->sectors > most_waves)
     faults.add("/structure/cyclic/sectors",

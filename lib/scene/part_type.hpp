@@ -31,15 +31,22 @@ class PartType {
   /// single direction, given in the part itself.
   virtual std::span<const std::string_view> slots() const { return {}; }
   std::size_t direction_count() const { return slots().empty() ? 1 : slots().size(); }
-  /// Whether its options name the directions instead: slots_with(). A name without a place in the part is
+  /// Whether its options may name the directions instead: slots_with(). A name without a place in the part is
   /// that of a degree of freedom.
   virtual bool names_directions() const { return false; }
+  /// Whether it has a single direction, given in the part itself.
+  virtual bool has_one_direction(const Settings& options) const {
+    static_cast<void>(options);
+    return slots().empty() && !names_directions();
+  }
   virtual std::span<const std::string_view> slots_with(const Settings& options) const {
     static_cast<void>(options);
     return slots();
   }
   std::size_t direction_count(const Settings& options) const {
-    return names_directions() ? slots_with(options).size() : direction_count();
+    return has_one_direction(options) ? 1
+           : names_directions()       ? slots_with(options).size()
+                                      : direction_count();
   }
 
   /// Fixed options of the part, which are not parameters: choices, tables in files. They may decide which
@@ -52,6 +59,8 @@ class PartType {
   /// Whether they decide which fields it has; for the JSON Schema.
   virtual bool options_bring_fields() const { return !options().empty(); }
 
+  /// Whether the part acts by the phase of the excitation, which is another one in each sector of a ring.
+  virtual bool depends_on_phase(const Settings&) const { return false; }
   /// Whether a wear coefficient stands next to them: of elements that dissipate.
   virtual bool has_wear(const Settings&) const { return false; }
 

@@ -105,6 +105,9 @@ struct Floquet::Impl {
     }
     if (!VaryingCoefficients::takes(*element.law))
       throw NoVariation("the memory of \"" + element.name + "\" is of an unknown kind");
+    if (element.law->may_jump())
+      throw NoVariation("the force of \"" + element.name +
+                        "\" may jump, and its multipliers are not computed");
     varying.add(element, e, mass.solve(element.directions));
   }
 

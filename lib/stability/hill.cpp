@@ -38,6 +38,9 @@ struct Hill::Impl {
       if (element.law->memory() > 0)
         throw NoVariation("Hill's method is for laws without memory: that of \"" + element.name +
                           "\" makes its spectrum fragment");
+      else if (element.law->may_jump())
+        throw NoVariation("the force of \"" + element.name +
+                          "\" may jump, and its multipliers are not computed");
     std::vector<LinearMotion::Part> none;
     fastest_mode = fastest(equation, none).value();
     continuation::Cholesky mass;
@@ -112,6 +115,7 @@ struct Hill::Impl {
         q[k] = values.x;
         at.v[k] = omega * values.d1;
       }
+      at.phase = harmonics.period * theta;
       element.law->begin(element.fields, q, none, at);
       for (std::size_t m = 0; m < law.T.size(); ++m) {
         const Complex by = std::polar(

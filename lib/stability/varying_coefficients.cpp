@@ -63,6 +63,10 @@ bool VaryingCoefficients::follow(double omega, double fastest, const elements::H
   elements_ = &elements;
   changes_.clear();
   breaks_.clear();
+  for (const Smooth& law : smooth_) {
+    const Matrix& q = elements[static_cast<std::size_t>(law.index)].q;
+    law.element->law->add_kinks(harmonics, q.reshaped(), omega, law.element->fields, breaks_);
+  }
   for (Hysteretic& law : hystereses_) {
     if (!law.course.follow(harmonics, elements[static_cast<std::size_t>(law.index)].q.col(0))) return false;
     const auto& turns = law.course.turns();
@@ -123,9 +127,9 @@ void VaryingCoefficients::end(double theta, Matrix& map, Eigen::Index first) con
 
 VaryingCoefficients::Piece VaryingCoefficients::interpolate(double theta, double h) {
   for (int i = 0; i < nodes; ++i) {
-    const double angle = theta + h * fit_.nodes[i];
-    cos_[i] = std::cos(angle);
-    sin_[i] = std::sin(angle);
+    angle_[i] = theta + h * fit_.nodes[i];
+    cos_[i] = std::cos(angle_[i]);
+    sin_[i] = std::sin(angle_[i]);
   }
   Piece piece;
   for (Smooth& law : smooth_) set(law, piece);
@@ -157,6 +161,7 @@ void VaryingCoefficients::set(Smooth& law, Piece& piece) {
       q_[k] = values.x;
       law.at.v[k] = omega_ * values.d1;
     }
+    law.at.phase = harmonics_.period * angle_[i];
     law.element->law->begin(law.element->fields, q_, none_, law.at);
     law.T.middleCols(i * size, size) = law.at.f_q;
     most_T = std::max(most_T, law.at.f_q.cwiseAbs().sum());

@@ -114,7 +114,7 @@ class VaryingCoefficients {
 
   const LegendreFit fit_;
   const Square by_values_, powers_;
-  Values cos_, sin_;  // of the angles of the nodes
+  Values angle_, cos_, sin_;  // of the nodes, rad
   std::vector<Variable> variables_;
   std::vector<Matrix> directions_;  // of variables_
   std::vector<Smooth> smooth_;

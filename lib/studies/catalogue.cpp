@@ -7,14 +7,13 @@
 #include <arcslip/laws/hysteresis/jenkins.hpp>
 #include <arcslip/laws/memoryless/bilinear_spring.hpp>
 #include <arcslip/laws/memoryless/coulomb.hpp>
-#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
+#include <arcslip/laws/memoryless/formula_type.hpp>
 #include <arcslip/laws/memoryless/gap_spring.hpp>
 #include <arcslip/laws/memoryless/piecewise_linear_spring.hpp>
 #include <arcslip/laws/memoryless/polynomial_coupling.hpp>
 #include <arcslip/laws/memoryless/polynomial_spring.hpp>
 #include <arcslip/laws/memoryless/quadratic_damper.hpp>
-#include <arcslip/laws/memoryless/tanh_friction.hpp>
-#include <arcslip/laws/memoryless/van_der_pol.hpp>
 #include <arcslip/studies/presentation/columns.hpp>
 
 #include <algorithm>
@@ -28,7 +27,8 @@ std::vector<const scene::PartType*> laws() {
           &iwan(),         &bouc_wen(),          &tanh_friction(),
           &coulomb(),      &quadratic_damper(),  &van_der_pol(),
           &cubic_spring(), &polynomial_spring(), &polynomial_coupling(),
-          &gap_spring(),   &bilinear_spring(),   &piecewise_linear_spring()};
+          &gap_spring(),   &bilinear_spring(),   &piecewise_linear_spring(),
+          &formula_type()};
 }
 
 }  // namespace arcslip::elements

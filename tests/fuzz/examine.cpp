@@ -12,7 +12,7 @@
 #include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/analyses/responses/parameter_response.hpp>
 #include <arcslip/analyses/responses/responses_at.hpp>
-#include <arcslip/laws/memoryless/van_der_pol.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>

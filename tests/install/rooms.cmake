@@ -20,8 +20,9 @@ set(scene/keys control results scene scene/keys)
 set(scene/files control results scene scene/keys scene/files)
 set(scene/format control scene scene/keys scene/files scene/format)
 set(fourier fourier)
+set(formula control formula)
 set(laws results scene scene/keys fourier laws)
-set(laws/memoryless scene/keys fourier laws laws/memoryless)
+set(laws/memoryless scene/keys fourier formula laws laws/memoryless)
 set(laws/hysteresis scene/keys fourier laws laws/hysteresis)
 set(laws/contact fourier laws laws/contact)
 set(structure ${continuation} control scene structure)
@@ -46,7 +47,7 @@ set(studies/presentation control results scene laws model observables analyses/m
 set(studies control results scene scene/keys laws/memoryless laws/hysteresis laws/contact stability observables
     analyses/responses analyses/curves analyses/modes_and_time studies/presentation studies)
 set(output control results output)
-set(structures ${continuation} control results scene scene/keys scene/files scene/format fourier laws laws/memoryless
+set(structures ${continuation} control results scene scene/keys scene/files scene/format fourier formula laws laws/memoryless
     laws/hysteresis laws/contact structure model hbm/linear hbm time/equation time/event_driven time/newmark
     time/periodic stability observables analyses/branches analyses/responses analyses/curves analyses/modes_and_time
     studies/presentation studies output)

@@ -122,6 +122,10 @@ class ModeStudy {
       if (element.law->set_valued())
         return "the friction of \"" + element.name +
                "\" has no stiffness, and stops motions of small amplitudes; give the contact a stiffness";
+    for (const auto& element : free_->elements)
+      if (element.law->phase_dependent())
+        return "the force of \"" + element.name +
+               "\" depends on the phase of the excitation, and free vibration has none";
     if (!free_->others.empty())
       return "a mode is followed over the amplitude at one place, and the response is the largest of "
              "several; "

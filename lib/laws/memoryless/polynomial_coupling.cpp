@@ -89,8 +89,8 @@ class PolynomialCoupling final : public SampledLaw {
         sum += std::abs(fields[t]) * own * (degrees_[t] - 1) * std::pow(reach, degrees_[t] - 2);
     return sum;
   }
-  int samples(int order) const override {
-    return (degrees_.empty() ? 1 : *std::max_element(degrees_.begin(), degrees_.end())) * order + 2;
+  int samples(const Harmonics& h) const override {
+    return (degrees_.empty() ? 1 : *std::max_element(degrees_.begin(), degrees_.end())) * h.order + 2;
   }
 
   void sample(Fields fields, const Eigen::MatrixXd& q, SampledForce& at) const override {

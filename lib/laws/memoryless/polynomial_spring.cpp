@@ -1,10 +1,10 @@
 #include <arcslip/laws/memoryless/polynomial_spring.hpp>
 
-#include <arcslip/laws/sampled_law.hpp>
+#include <arcslip/laws/memoryless/formula_law.hpp>
 #include <arcslip/scene/keys/study_keys.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -36,74 +36,34 @@ constexpr scene::Field coefficient_fields[largest_power] = {
     coefficient("c7", "N/m^7", "/coefficients/7"), coefficient("c8", "N/m^8", "/coefficients/8"),
     coefficient("c9", "N/m^9", "/coefficients/9")};
 
-class PolynomialSpring final : public SampledLaw {
+/// A formula with the fields that it refers to.
+class PolynomialSpring {
  public:
   /// Ascending powers.
-  explicit PolynomialSpring(std::vector<int> powers) : powers_(std::move(powers)) {
-    for (const int n : powers_) fields_.push_back(coefficient_fields[n - 1]);
+  explicit PolynomialSpring(std::vector<int> powers)
+      : powers_(std::move(powers)), fields_(fields_of(powers_)) {
+    std::string force;
+    for (const int n : powers_)
+      force += (force.empty() ? "c" : " + c") + std::to_string(n) + "*q^" + std::to_string(n);
+    law_.emplace("polynomial_spring", "a spring whose force is a polynomial",
+                 std::vector{force.empty() ? "0" : force}, fields_);
   }
+  PolynomialSpring(const PolynomialSpring&) = delete;
+  PolynomialSpring& operator=(const PolynomialSpring&) = delete;
+
   const std::vector<int>& powers() const { return powers_; }
-
-  std::string_view name() const override { return polynomial_spring().name(); }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return fields_; }
-
-  bool antisymmetric() const override {
-    return std::all_of(powers_.begin(), powers_.end(), [](int n) { return n % 2 == 1; });
-  }
-  Traits traits(Fields fields, int) const override {
-    Traits traits;
-    for (std::size_t k = 0; k < powers_.size(); ++k) {
-      if (fields[k] == 0) continue;
-      traits.far_power = powers_[k];
-      traits.stiffness = powers_[k] == 1 ? std::abs(fields[k]) : infinity;
-      traits.holds_mean = traits.holds_mean || powers_[k] % 2 == 1;
-      traits.several_responses = powers_[k] > 1;
-    }
-    if (powers_ == std::vector{1} && fields[0] > 0) traits.stiffness_field = 0;
-    return traits;
-  }
-  double stiffness(Fields fields, int, double reach) const override {
-    double sum = 0;
-    for (std::size_t k = 0; k < powers_.size(); ++k)
-      if (fields[k] != 0) sum += powers_[k] * std::abs(fields[k]) * std::pow(reach, powers_[k] - 1);
-    return sum;
-  }
-  int samples(int order) const override { return ((powers_.empty() ? 0 : powers_.back()) + 1) * order + 2; }
-
-  void sample(Fields fields, const Eigen::MatrixXd& q, SampledForce& at) const override {
-    at.f.setZero();
-    at.f_q.setZero();
-    for (Eigen::Index s = 0; s < q.rows(); ++s) {
-      double power = 1;  // q^(n-1)
-      int n = 1;
-      for (std::size_t k = 0; k < powers_.size(); ++k) {
-        for (; n < powers_[k]; ++n) power *= q(s, 0);
-        at.f_field(s, static_cast<Eigen::Index>(k)) = power * q(s, 0);
-        at.f(s, 0) += fields[k] * power * q(s, 0);
-        at.f_q(s, 0) += n * fields[k] * power;
-      }
-    }
-  }
-  double stored(Fields fields, In q, In) const override {
-    double sum = 0;
-    for (std::size_t k = 0; k < powers_.size(); ++k)
-      sum += fields[k] * std::pow(q[0], powers_[k] + 1) / (powers_[k] + 1);
-    return sum;
-  }
-  std::optional<std::vector<Automaton>> automata(Fields fields) const override {
-    double linear = 0;
-    for (std::size_t k = 0; k < powers_.size(); ++k) {
-      if (powers_[k] == 1) linear = fields[k];
-      if (powers_[k] > 1 && fields[k] != 0) return {};
-    }
-    Automaton spring(-1);
-    spring.add("linear", linear, 0, 0);
-    return std::vector{spring};
-  }
+  const FormulaLaw& law() const { return *law_; }
 
  private:
+  static std::vector<scene::Field> fields_of(const std::vector<int>& powers) {
+    std::vector<scene::Field> fields;
+    for (const int n : powers) fields.push_back(coefficient_fields[n - 1]);
+    return fields;
+  }
+
   std::vector<int> powers_;
   std::vector<scene::Field> fields_;
+  std::optional<FormulaLaw> law_;
 };
 
 struct PolynomialSpringOptions {
@@ -158,10 +118,12 @@ class PolynomialSpringType final : public scene::file::KeyedPart<PolynomialSprin
   std::string_view help() const override { return "a spring whose force is a polynomial"; }
   std::span<const scene::Field> fields(const scene::Settings& options) const override {
     return options.empty() ? std::span<const scene::Field>()
-                           : options.as<PolynomialSpringOptions>().spring->fields({});
+                           : options.as<PolynomialSpringOptions>().spring->law().fields({});
   }
   std::shared_ptr<const Law> law(const scene::Settings& options) const override {
-    return options.empty() ? PolynomialSpringOptions{}.spring : options.as<PolynomialSpringOptions>().spring;
+    const auto spring =
+        options.empty() ? PolynomialSpringOptions{}.spring : options.as<PolynomialSpringOptions>().spring;
+    return {spring, &spring->law()};
   }
 };
 

@@ -225,7 +225,7 @@ Node part_of(const PartType& type, bool with_type) {
     properties.push_back({"type", of({{"const", node(type.name())}})});
     if (&type != &force_type()) required.emplace_back("type");
   }
-  const bool one_direction = type.slots().empty() && !type.names_directions();
+  const bool one_direction = type.has_one_direction({});
   const auto excitations = excitation_types();
   const bool excites = std::find(excitations.begin(), excitations.end(), &type) != excitations.end();
   if (one_direction) add_place(properties, !excites);
@@ -265,7 +265,7 @@ Node part_of(const PartType& type, bool with_type) {
   else if (type.options_bring_fields())
     object.back().value = of_type("number");  // fields that the options bring
   const bool shaped = std::find(excitations.begin(), excitations.end(), &type) != excitations.end();
-  if (one_direction && !shaped) object.push_back({"oneOf", one_place()});
+  if (one_direction && !shaped && !type.names_directions()) object.push_back({"oneOf", one_place()});
   if (&type == &force_type()) {
     auto places = std::get<Node::List>(one_place().value);
     places.push_back(of({{"required", node(std::vector<std::string>{"shape"})}}));

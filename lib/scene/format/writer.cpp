@@ -92,7 +92,7 @@ Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_ty
     Node::Object object = {{"name", node(part.name)}};
     if (with_type) object.push_back({"type", node(part.type->name())});
     const auto slots = part.type->slots_with(part.options);
-    if (slots.empty() && !part.type->names_directions() && !part.directions.front().empty())
+    if (part.type->has_one_direction(part.options) && !part.directions.front().empty())
       object.push_back(place_member(part.directions.front(), dofs));
     for (std::size_t i = 0; i < slots.size(); ++i)
       object.push_back({std::string(slots[i]), {Node::Object{place_member(part.directions[i], dofs)}}});

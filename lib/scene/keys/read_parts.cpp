@@ -38,7 +38,7 @@ std::vector<std::string> keys_of(const Part& part, bool has_type, bool has_wear)
   if (has_type) keys.emplace_back("type");
   const auto slots = part.type->slots_with(part.options);
   for (const std::string_view slot : slots) keys.emplace_back(slot);
-  if (slots.empty() && !part.type->names_directions())
+  if (part.type->has_one_direction(part.options))
     keys.insert(keys.end(), {"at", "between", "direction"});
   for (const Key& option : part.type->options()) keys.push_back(option.name);
   if (is_excitation(part.type)) keys.emplace_back("harmonic");
@@ -59,7 +59,7 @@ Direction all_dofs(const Dofs& dofs) {
 std::vector<Direction> read_directions(const PartType& type, const Settings& options, const Keys& keys,
                                        const Dofs& dofs, Faults& faults) {
   const auto slots = type.slots_with(options);
-  if (slots.empty() && !type.names_directions()) {
+  if (type.has_one_direction(options)) {
     const bool has_place = keys.has("at") || keys.has("between") || keys.has("direction");
     if (!has_place && (keys.has("shape") || keys.has("imaginary_shape"))) return {Direction{}};
     if (is_base_motion(type) && !has_place) return {all_dofs(dofs)};

@@ -10,6 +10,10 @@ double EquationOfMotion::period() const {
   return 2 * std::numbers::pi / omega;
 }
 
+double EquationOfMotion::phase(double share) const {
+  return periods * share * 2 * std::numbers::pi;
+}
+
 Matrix EquationOfMotion::circulatory() const {
   if (K == K.transpose()) return {};
   return 0.5 * (K - K.transpose());
@@ -49,6 +53,7 @@ void check_response(const model::Model& model) {
 EquationOfMotion equation_of_motion(const model::Model& model, const continuation::Vector& p) {
   EquationOfMotion equation;
   equation.omega = model.harmonics.base_frequency(p[model::frequency]);
+  equation.periods = model.harmonics.period;
   if (model.damping && model.damping->loss_factor_at(p) != 0)
     throw NotInTime(reasons::loss_factor,
                     "damping by a loss factor has no equation of motion in time; give \"beta\" in its place, "

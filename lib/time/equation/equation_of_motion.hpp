@@ -50,6 +50,7 @@ struct BaseMotion {
 
 struct EquationOfMotion {
   double omega = 0;  // base frequency, rad/s: n is an order of it
+  int periods = 1;   // of the excitation in one of the motion
   Matrix M, C, K;    // dofs x dofs; kg, N s/m, N/m
   std::vector<TimeElement> elements;
   std::vector<HarmonicForce> forces;
@@ -63,6 +64,8 @@ struct EquationOfMotion {
   Matrix circulatory() const;
   /// 2 pi/omega, s: that of the motion sought, one or several of the excitation.
   double period() const;
+  /// The phase of the excitation, rad, at a share of the period.
+  double phase(double share) const;
   /// The excitation at time t (s), N.
   void force(double t, Vector& f) const;
   /// The observed displacement and velocity.

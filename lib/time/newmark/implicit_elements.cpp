@@ -70,12 +70,14 @@ void ImplicitElements::begin(const Vector& x, const Vector& v, const Vector& z) 
 void ImplicitElements::begin_at(const Vector& q, const Vector& rate, const Vector& z) {
   q_ = q;
   rate_ = carried_ = rate;
+  start_phase_ = phase_;
   z_ = z;
   dz_.setZero();
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const TimeElement& element = elements_[e];
     const auto d = element.directions.cols(), m = ends_[e].dz.size();
     ends_[e].v = rate_.segment(first_[e], d);
+    ends_[e].phase = phase_;
     element.law->begin(element.fields, q_.segment(first_[e], d), z_.segment(element.memory, m), ends_[e]);
     force_.segment(first_[e], d) = ends_[e].f;
   }
@@ -95,6 +97,7 @@ void ImplicitElements::evaluate(const Vector& y) {
     elements::StepEnd& end = ends_[e];
     const auto d = end.f.size(), m = end.dz.size(), i = first_[e];
     if (moves_) end.v = new_rate_.segment(i, d);
+    end.phase = phase_;
     element.law->step(element.fields, {q_.segment(i, d), z_.segment(element.memory, m), force_.segment(i, d)},
                       dq_.segment(i, d), end);
     new_force_.segment(i, d) = end.f;
@@ -240,6 +243,8 @@ void ImplicitElements::accept(const Vector& v) {
   }
   last_q_ = q_;
   last_z_ = z_;
+  last_phase_ = start_phase_;
+  start_phase_ = phase_;
   q_ += dq_;
   z_ += dz_;
   force_ = new_force_;
@@ -265,6 +270,7 @@ void ImplicitElements::force_change(const Matrix& dx, const Matrix& dv, const Ma
     auto z = moved_.head(m);
     z = last_z_.segment(element.memory, m);
     at.v = last_rate_.segment(i, d);
+    at.phase = last_phase_;
     element.law->begin(element.fields, last_q_.segment(i, d), z, at);
     df.middleRows(i, d).noalias() = at.f_q * dq_columns_.middleRows(i, d);
     df.middleRows(i, d).noalias() += at.f_z * dz.middleRows(element.memory, m);

@@ -37,6 +37,8 @@ class ImplicitElements {
   void set_matrix(const Matrix& A);
   /// v1 = B y + S v0; without it v1 = v0.
   void set_velocities(const Matrix& B, const Matrix& S);
+  /// The phase of the excitation, rad, of the next state that is begun in, or of the end of the next step.
+  void set_phase(double phase) { phase_ = phase; }
   /// The state in which the next step begins. A slider beyond its limit is drawn after.
   void begin(const Vector& x, const Vector& v, const Vector& z);
   /// The same with q = D^T x and its rate D^T v.
@@ -84,6 +86,8 @@ class ImplicitElements {
   continuation::LU<double> lu_;
   Vector tangent_, factored_;  // all T_e one after the other; those that lu_ is of
   bool has_factors_ = false;
+  double phase_ = 0, start_phase_ = 0,
+         last_phase_ = 0;                   // at the end, at the beginning, before the last accept()
   Vector q_, z_, force_, last_q_, last_z_;  // at the beginning; before the last accept()
   Vector rate_, last_rate_;                 // D^T v likewise, where it is needed
   Vector new_force_, dq_, dz_;              // at the end

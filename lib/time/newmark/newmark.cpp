@@ -60,6 +60,7 @@ void Newmark::resume(const MotionState& state) {
   energy_ = {};
   y_.setZero();
   equation_.force(0, force_);
+  elements_.set_phase(0);
   elements_.begin(state_.x, state_.v, state_.z);
   state_.z = elements_.memory();
   set_rate();
@@ -122,7 +123,9 @@ EnergyBalance Newmark::energy() const {
 }
 
 Solved Newmark::step() {
-  equation_.force(static_cast<double>((number_ + 1) % steps_) * h_, new_force_);
+  const auto next = static_cast<double>((number_ + 1) % steps_);
+  equation_.force(next * h_, new_force_);
+  elements_.set_phase(equation_.phase(next / static_cast<double>(steps_)));
   b_ = rate_ + new_force_;
   b_.noalias() += inertia_ * state_.v;
   b_.noalias() += equation_.C * state_.v;

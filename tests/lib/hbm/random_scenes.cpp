@@ -4,7 +4,7 @@
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/laws/hysteresis/jenkins.hpp>
-#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/studies/catalogue.hpp>
 
 #include <algorithm>

@@ -50,7 +50,7 @@ class PolynomialLaw final : public elements::SampledLaw {
       sum += (k + 1) * std::abs(fields[static_cast<std::size_t>(k)]) * std::pow(reach, k);
     return sum;
   }
-  int samples(int order) const override { return (degree_ + 1) * order + 2; }
+  int samples(const elements::Harmonics& h) const override { return (degree_ + 1) * h.order + 2; }
   void sample(Fields fields, const Eigen::MatrixXd& q, elements::SampledForce& at) const override {
     at.f.setZero();
     at.f_q.setZero();

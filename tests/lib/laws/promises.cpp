@@ -11,11 +11,10 @@
 #include <arcslip/laws/contact/contact_2d.hpp>
 #include <arcslip/laws/contact/contact_3d.hpp>
 #include <arcslip/laws/hysteresis/bouc_wen.hpp>
-#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/formula_type.hpp>
 #include <arcslip/laws/memoryless/polynomial_spring.hpp>
 #include <arcslip/laws/memoryless/quadratic_damper.hpp>
-#include <arcslip/laws/memoryless/tanh_friction.hpp>
-#include <arcslip/laws/memoryless/van_der_pol.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 
 using namespace every_law;
 
@@ -33,6 +32,11 @@ const auto uniform = iwan_laws::law(iwan_laws::uniform),
            four_parameter = iwan_laws::law(iwan_laws::four_parameter),
            table = iwan_laws::law(iwan_laws::table({{0.7, 0.2}, {1.1, 0.4}, {0.3, 0.35}}));
 const auto odd_powers = elements::polynomial_spring().law(elements::polynomial_powers({9, 1, 3}));
+const auto own = [](const std::string& force, std::vector<elements::FormulaParameter> parameters) {
+  return elements::formula_type().law(elements::formula_options({force}, std::move(parameters)));
+};
+const auto exponential = own("k*(exp(q/a) - 1) + c*v^3", {{"k"}, {"a"}, {"c"}}),
+           of_both = own("k*tanh(q*v/20) + c*v/sqrt(400 + v^2)", {{"k"}, {"c"}});
 const auto some_powers = elements::polynomial_spring().law(elements::polynomial_powers({2, 5, 8}));
 
 struct Example {
@@ -69,6 +73,8 @@ const Example all[] = {
     {*some_powers, {0.3, 0.2, -0.1}, 1e-7},
     {elements::bouc_wen(), {0.8, 0.2, 0.7, 1, 0.7}, 1e-6},
     {elements::bouc_wen(), {0.8, 0, 0.9, 2.5, 0.5}, 1e-6},
+    {*exponential, {0.4, 1.3, 0.2}, 1e-7},
+    {*of_both, {0.4, 0.3}, 1e-7},
     {elements::quadratic_damper(), {0.7}, 1e-7},
     {elements::van_der_pol(), {0.7, 0.1}, 1e-7},
     {elements::tanh_friction(), {0.7, 1.2, 20}, 1e-7},

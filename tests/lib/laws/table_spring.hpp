@@ -43,7 +43,7 @@ class TableLaw final : public elements::SampledLaw {
     for (std::size_t i = 1; i < rows_.size(); ++i) largest = std::max(largest, slope(i));
     return fields[0] * largest;
   }
-  int samples(int order) const override { return 8 * order + 8; }
+  int samples(const elements::Harmonics& h) const override { return 8 * h.order + 8; }
   void sample(Fields fields, const Eigen::MatrixXd& q, elements::SampledForce& at) const override {
     at.piece = 0;
     for (Eigen::Index k = 0; k < q.rows(); ++k) {

@@ -8,7 +8,7 @@
 #include <arcslip/analyses/curves/curves.hpp>
 #include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/laws/contact/contact_2d.hpp>
-#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/scene/keys/enum_words.hpp>

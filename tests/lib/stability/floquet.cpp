@@ -13,7 +13,7 @@
 #include "lib/time/periodic/random_contacts.hpp"
 
 #include <arcslip/laws/memoryless/polynomial_spring.hpp>
-#include <arcslip/laws/memoryless/van_der_pol.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/stability/floquet.hpp>
 
 #include <Eigen/LU>

@@ -12,7 +12,7 @@
 
 #include <arcslip/laws/memoryless/gap_spring.hpp>
 #include <arcslip/laws/memoryless/polynomial_spring.hpp>
-#include <arcslip/laws/memoryless/van_der_pol.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/stability/hill.hpp>
 
 #include <Eigen/LU>

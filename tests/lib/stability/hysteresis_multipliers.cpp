@@ -11,7 +11,7 @@
 #include "lib/time/periodic/compared_with_exact.hpp"
 
 #include <arcslip/laws/hysteresis/bouc_wen.hpp>
-#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/stability/floquet.hpp>
 
 #include <Eigen/LU>

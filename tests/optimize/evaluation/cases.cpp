@@ -7,7 +7,7 @@
 #include "optimize/optima.hpp"
 #include "optimize/paper_optimum.hpp"
 
-#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/optimize/evaluation/reasons.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 

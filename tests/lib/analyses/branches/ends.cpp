@@ -7,7 +7,7 @@
 
 #include <arcslip/analyses/branches/frequency_branch.hpp>
 #include <arcslip/hbm/problem.hpp>
-#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/results/reasons.hpp>
 

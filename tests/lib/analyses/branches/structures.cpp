@@ -13,7 +13,7 @@
 #include <arcslip/analyses/branches/frequency_branch.hpp>
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
 #include <arcslip/laws/hysteresis/jenkins.hpp>
-#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/results/reasons.hpp>
 

@@ -9,7 +9,7 @@
 
 #include <arcslip/analyses/curves/curves.hpp>
 #include <arcslip/analyses/responses/parameter_response.hpp>
-#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/results/reasons.hpp>
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 #include <arcslip/analyses/responses/responses_at.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/laws/memoryless/coulomb.hpp>
-#include <arcslip/laws/memoryless/tanh_friction.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/observables/energies.hpp>
 #include <arcslip/results/reasons.hpp>
 #include <arcslip/studies/presentation/columns.hpp>

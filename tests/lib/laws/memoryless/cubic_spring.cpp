@@ -1,6 +1,6 @@
 #include "catch.hpp"
 
-#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 
 #include <array>
 

@@ -8,8 +8,7 @@
 #include <arcslip/continuation/problem/jacobian_check.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/laws/memoryless/quadratic_damper.hpp>
-#include <arcslip/laws/memoryless/tanh_friction.hpp>
-#include <arcslip/laws/memoryless/van_der_pol.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/observables/energies.hpp>
 #include <arcslip/results/reasons.hpp>
 #include <arcslip/time/newmark/newmark_periods.hpp>

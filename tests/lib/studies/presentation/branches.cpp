@@ -2,7 +2,7 @@
 #include "lib/output/support.hpp"
 
 #include <arcslip/laws/hysteresis/jenkins.hpp>
-#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/results/table_writer.hpp>

@@ -1,7 +1,7 @@
 #include "catch.hpp"
 #include "lib/output/support.hpp"
 
-#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/output/gnuplot_script.hpp>
 #include <arcslip/results/csv_writer.hpp>

@@ -2,7 +2,7 @@
 // Structures for tests in the time domain.
 
 #include <arcslip/laws/hysteresis/jenkins.hpp>
-#include <arcslip/laws/memoryless/cubic_spring.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/time/equation/equation_of_motion.hpp>
 
 #include <cmath>
