@@ -9,10 +9,11 @@ from typing import Any, overload
 
 from . import _core
 from .errors import ArcslipWarning
+from .names import Named
 from .tables import Table, as_array, packed
 
 
-class Result:
+class Result(Named):
     """A branch, a motion, an optimum or another result.
 
     Columns of its main table, its tables and its further facts are items and attributes: ``branch["amplitude"]``,
@@ -34,8 +35,6 @@ class Result:
         Why a complete result is less accurate than it seems; "" if there is no doubt.
     parent : Result or None
         The result that it continues, or that it leaves.
-    tables : dict
-        Its tables by name. The first is the main one.
     facts : dict
         What it has besides.
     """
@@ -54,10 +53,15 @@ class Result:
         self.stop: dict[str, Any] = about["stop"]
         self.doubt: str = about["doubt"]
         self.parent: Result | None = None
-        self.tables = tables
+        self._tables = tables
         self.facts: dict[str, Any] = about["facts"]
         self._set_units: dict[str, str] = about["set_units"]
         self._labels = labels
+
+    @property
+    def tables(self) -> dict[str, Table]:
+        """Its tables by name. The first is the main one."""
+        return self._tables
 
     @property
     def units(self) -> dict[str, str]:
@@ -72,25 +76,17 @@ class Result:
 
     @property
     def _main(self) -> Table:
-        return next(iter(self.tables.values()))
+        return next(iter(self._tables.values()))
 
     def __getitem__(self, name: str) -> Any:
-        if name in self.tables:
-            return self.tables[name]
+        if name in self._tables:
+            return self._tables[name]
         if name in self._main.columns or name not in self.facts:
             return self._main[name]
         return self.facts[name]
 
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_") or "tables" not in self.__dict__:
-            raise AttributeError(name)
-        try:
-            return self[name]
-        except KeyError as error:
-            raise AttributeError(str(error.args[0])) from None
-
-    def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self.tables, *self.facts, *self._main.heads()]
+    def _names(self) -> list[str]:
+        return [*self._tables, *self.facts, *self._main.heads()]
 
     def __len__(self) -> int:
         """Return the number of rows of the main table."""

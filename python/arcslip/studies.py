@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import inspect
 import json
 import keyword
@@ -15,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from . import _core
 from .arrays import as_json
 from .errors import ArcslipWarning
+from .names import nearest
 from .results import Results, from_core, warn
 
 if TYPE_CHECKING:
@@ -156,9 +156,7 @@ def method(kind: Mapping[str, Any]) -> Callable[..., Results]:
     ) -> Results:
         for name in options:
             if name not in arguments:
-                near = difflib.get_close_matches(name, arguments, 1)
-                hint = f"; the nearest is {near[0]!r}" if near else ""
-                raise TypeError(f"{kind['verb']}() has no argument {name!r}{hint}")
+                raise TypeError(f"{kind['verb']}() has no argument {name!r}{nearest(name, arguments)}")
         if coefficients and not kind["takes_coefficients"]:
             raise TypeError(f"{kind['verb']}() has no argument 'coefficients'")
         keys = {arguments[name]["name"]: value for name, value in options.items()}

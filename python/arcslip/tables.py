@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .names import Named, nearest
 
-class Row:
+
+class Row(Named):
     """A row of a table, such as a point or an event: its values as items and attributes, missing ones are NaN or None."""
 
     __slots__ = ("_index", "_table")
@@ -26,16 +27,8 @@ class Row:
         value = found[self._index]
         return value.item() if isinstance(value, np.generic) else value
 
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        try:
-            return self[name]
-        except KeyError as error:
-            raise AttributeError(str(error.args[0])) from None
-
-    def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self._table.heads()]
+    def _names(self) -> list[str]:
+        return self._table.heads()
 
     def to_dict(self) -> dict[str, Any]:
         """Return all values by the names of their columns."""
@@ -50,7 +43,7 @@ class Row:
         return f"<{', '.join(values[:6])}{', ...' if len(values) > 6 else ''}>"
 
 
-class Table(Sequence[Row]):
+class Table(Named, Sequence[Row]):
     """Rows of equal columns: ``table["amplitude"]``, or ``table.amplitude``, is a column, ``table[0]`` a row.
 
     Columns have dotted names: ``table["elements.damper.stick_percent"]`` is ``table.elements.damper.stick_percent``.
@@ -109,16 +102,8 @@ class Table(Sequence[Row]):
         index = range(self._count)[of]
         return Row(self, index)
 
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        try:
-            return self[name]
-        except KeyError as error:
-            raise AttributeError(str(error.args[0])) from None
-
-    def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self.heads()]
+    def _names(self) -> list[str]:
+        return self.heads()
 
     def _by_name(self, name: str) -> Any:
         if name in self._loaded:
@@ -134,8 +119,7 @@ class Table(Sequence[Row]):
             return Table(short, self._count, lambda i: self._by_name(inner[i]), units)
         if "kind" in self._places and name in (kinds := self._by_name("kind")):
             return self._some(np.flatnonzero(kinds == name))
-        near = difflib.get_close_matches(name, [*self._places, *self.heads()], 1)
-        raise KeyError(f"no column {name!r}" + (f"; the nearest is {near[0]!r}" if near else ""))
+        raise KeyError(f"no column {name!r}{nearest(name, [*self._places, *self.heads()])}")
 
     def _some(self, rows: NDArray[np.intp]) -> Table:
         names = self.columns

@@ -85,6 +85,9 @@ def test_objects_without_their_inside_are_refused(scene: arcslip.Scene) -> None:
         hash(empty)
     with pytest.raises(TypeError):
         _core.Scene.__new__(_core.Scene).write()
+    for kind in (arcslip.Result, arcslip.Table, arcslip.Row):
+        with pytest.raises(AttributeError):
+            kind.__new__(kind).amplitude
 
 
 @pytest.mark.parametrize("name", ["a\0b", "", "c.value\0", "\N{SNOWMAN}", "c" * 100000])
