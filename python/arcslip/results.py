@@ -5,12 +5,17 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from . import _core
 from .errors import ArcslipWarning
-from .names import Named
+from .frames import chosen, data_frame, data_set, joined_frame
+from .names import Named, nearest
 from .tables import Table, as_array, packed
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 
 class Result(Named):
@@ -27,6 +32,8 @@ class Result(Named):
         Name and kind of its study.
     set : dict
         The values of parameters for which it was computed, of a study with several.
+    set_units : dict
+        Their units.
     status : str
         "complete"; "stopped": a correct part of it; "failed": no result.
     stop : dict
@@ -55,7 +62,7 @@ class Result(Named):
         self.parent: Result | None = None
         self._tables = tables
         self.facts: dict[str, Any] = about["facts"]
-        self._set_units: dict[str, str] = about["set_units"]
+        self.set_units: dict[str, str] = about["set_units"]
         self._labels = labels
 
     @property
@@ -66,7 +73,7 @@ class Result(Named):
     @property
     def units(self) -> dict[str, str]:
         """The units of columns of the main table, and of the parameters of `set`."""
-        return {**self._set_units, **self._main.units}
+        return {**self.set_units, **self._main.units}
 
     @property
     def labels(self) -> dict[str, str]:
@@ -91,6 +98,27 @@ class Result(Named):
     def __len__(self) -> int:
         """Return the number of rows of the main table."""
         return len(self._main)
+
+    def to_dataframe(self, table: str | None = None) -> pandas.DataFrame:
+        """Return a table as a data frame of pandas, as `Table.to_dataframe` does.
+
+        Parameters
+        ----------
+        table : str, optional
+            Its name, such as "events"; by default the main one.
+
+        Raises
+        ------
+        ValueError
+            If there is no such table.
+        ImportError
+            If pandas is not installed: the extra ``arcslip[pandas]`` has it.
+        """
+        return data_frame(chosen([self], table)[0])
+
+    def to_xarray(self, table: str | None = None) -> xarray.Dataset:
+        """Return a table as a data set of xarray over the dimension `point`, as `Results.to_xarray` does for several."""
+        return data_set([self], table).isel(combination=0)
 
     def __bool__(self) -> bool:
         return True
@@ -139,6 +167,82 @@ class Results(Sequence[Result]):
     def of(self, study: str) -> tuple[Result, ...]:
         """Return the results of the study with this name."""
         return tuple(result for result in self._all if result.study == study)
+
+    def _of(self, study: str | None) -> tuple[Result, ...]:
+        """Return the results of a study, or all of them."""
+        studies = list(dict.fromkeys(result.study for result in self._all))
+        if study is not None and study not in studies:
+            raise ValueError(f"found study={study!r}, must be one of {studies}{nearest(study, studies)}")
+        return self._all if study is None else self.of(study)
+
+    def to_dataframe(self, table: str | None = None, *, study: str | None = None) -> pandas.DataFrame:
+        """Return the rows of all results as one data frame of pandas.
+
+        Parameters
+        ----------
+        table : str, optional
+            The table of each result, such as "events"; by default the main one.
+        study : str, optional
+            The study whose results are taken; by default all, which must then be of one kind.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Its index has the levels `combination`, the number of the result from 0, and `point`, the row of its table. The
+            first columns are the parameters that `for_each` sets. Columns that a result does not have are missing there.
+            ``attrs["units"]`` has the units.
+
+        Raises
+        ------
+        ValueError
+            If there is no such study or table, or if the results have different tables.
+        ImportError
+            If pandas is not installed: the extra ``arcslip[pandas]`` has it.
+
+        Examples
+        --------
+        >>> scene = arcslip.Scene("examples/duffing_jenkins/scene.json")
+        >>> responses = scene.frf(for_each={"damper.normal_load": [1.0, 4.0]})
+        >>> events = responses.to_dataframe("events")
+        >>> events[events.kind == "peak"].groupby("damper.normal_load").amplitude.max().index.tolist()
+        [1.0, 4.0]
+        """
+        return joined_frame(self._of(study), table)
+
+    def to_xarray(self, table: str | None = None, *, study: str | None = None) -> xarray.Dataset:
+        """Return the tables of all results as a data set of xarray.
+
+        Parameters
+        ----------
+        table : str, optional
+            The table of each result, such as "events"; by default the main one.
+        study : str, optional
+            The study whose results are taken; by default all, which must then be of one kind.
+
+        Returns
+        -------
+        xarray.Dataset
+            Each column is a variable over the dimensions `combination`, the results in order, and `point`, the rows of their
+            tables, of which shorter ones are filled up with NaN, texts with "". Lists of numbers have further dimensions.
+            The parameters that `for_each` sets are coordinates of `combination`. Units are in the ``attrs`` of each.
+
+        Raises
+        ------
+        ValueError
+            If there is no such study or table, or if the results have different tables.
+        ImportError
+            If xarray is not installed: the extra ``arcslip[ensemble]`` has it.
+
+        Examples
+        --------
+        >>> scene = arcslip.Scene("examples/duffing_jenkins/scene.json")
+        >>> data = scene.frf(for_each={"damper.normal_load": [1.0, 4.0]}).to_xarray()
+        >>> data.amplitude.max("point").swap_dims(combination="damper.normal_load").dims
+        ('damper.normal_load',)
+        >>> data.amplitude.attrs["units"]
+        'm'
+        """
+        return data_set(self._of(study), table)
 
     def to_json(self) -> str:
         """Return the text of the file that the command writes. Of results that were computed here, and not loaded."""

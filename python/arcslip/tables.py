@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .frames import data_frame
 from .names import Named, nearest
+
+if TYPE_CHECKING:
+    import pandas
 
 
 class Row(Named):
@@ -120,6 +124,30 @@ class Table(Named, Sequence[Row]):
         if "kind" in self._places and name in (kinds := self._by_name("kind")):
             return self._some(np.flatnonzero(kinds == name))
         raise KeyError(f"no column {name!r}{nearest(name, [*self._places, *self.heads()])}")
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """Return the table as a data frame, a column for each column.
+
+        Lists of numbers, such as Fourier coefficients, are a column of arrays.
+
+        Returns
+        -------
+        pandas.DataFrame
+            With the units of columns in ``attrs["units"]``. It owns its values.
+
+        Raises
+        ------
+        ImportError
+            If pandas is not installed: the extra ``arcslip[pandas]`` has it.
+
+        Examples
+        --------
+        >>> branch, = arcslip.Scene("examples/duffing_jenkins/scene.json").frf()
+        >>> peaks = branch.events["peak"].to_dataframe()
+        >>> peaks.attrs["units"]["amplitude"]
+        'm'
+        """
+        return data_frame(self)
 
     def _some(self, rows: NDArray[np.intp]) -> Table:
         names = self.columns
