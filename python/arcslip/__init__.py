@@ -14,6 +14,7 @@ Public are the names of ``__all__``, and their attributes that do not begin with
 from ._core import __version__
 from .errors import ArcslipWarning, Fault, ParameterError, SceneError
 from .files import load
+from .motions import Loop, Motion
 from .parameters import Parameter, Parameters
 from .results import Result, Results
 from .scene import Scene, schema
@@ -22,6 +23,8 @@ from .tables import Row, Table
 __all__ = [
     "ArcslipWarning",
     "Fault",
+    "Loop",
+    "Motion",
     "Parameter",
     "ParameterError",
     "Parameters",

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, overload
 from . import _core
 from .errors import ArcslipWarning
 from .frames import chosen, data_frame, data_set, joined_frame
+from .motions import Motion, motion_of
 from .names import Named, nearest
-from .tables import Table, as_array, packed
+from .tables import Row, Table, as_array, packed
 
 if TYPE_CHECKING:
     import pandas
@@ -98,6 +99,41 @@ class Result(Named):
     def __len__(self) -> int:
         """Return the number of rows of the main table."""
         return len(self._main)
+
+    def motion(self, of: int | Row = 0, /) -> Motion:
+        """Return the motion over a period, with the forces and loops of the elements.
+
+        Studies of the kinds "point" and "time" record it.
+
+        Parameters
+        ----------
+        of : int
+            The period, of several that were recorded; -1 is the last one. The rows of branches, their points and events, have
+            no motion: ``scene.point(frequency=event.frequency)`` computes that of the responses at a frequency.
+
+        Returns
+        -------
+        Motion
+            A table of instants, whose columns are arrays of shape ``(instants,)``: `time` in s, `displacement` in m and
+            `velocity` in m/s of the response, and ``elements.damper.force`` in N and so on of elements. Its `loops` are the
+            hysteresis loops.
+
+        Raises
+        ------
+        ValueError
+            If the result has no history.
+        IndexError
+            If the history has no such period.
+
+        Examples
+        --------
+        >>> response, = arcslip.Scene("examples/duffing_jenkins/scene.json").point(frequency=1.0)
+        >>> motion = response.motion()
+        >>> displacement, force = motion.loops["damper"]
+        >>> displacement.shape == force.shape == motion.time.shape
+        True
+        """
+        return motion_of(self, of)
 
     def to_dataframe(self, table: str | None = None) -> pandas.DataFrame:
         """Return a table as a data frame of pandas, as `Table.to_dataframe` does.

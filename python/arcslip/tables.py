@@ -102,7 +102,7 @@ class Table(Named, Sequence[Row]):
         if isinstance(of, str):
             return self._by_name(of)
         if isinstance(of, slice):
-            return self._some(np.arange(self._count)[of])
+            return self._some(of)
         index = range(self._count)[of]
         return Row(self, index)
 
@@ -149,9 +149,9 @@ class Table(Named, Sequence[Row]):
         """
         return data_frame(self)
 
-    def _some(self, rows: NDArray[np.intp]) -> Table:
+    def _some(self, rows: slice | NDArray[np.intp]) -> Table:
         names = self.columns
-        return Table(names, len(rows), lambda i: self._by_name(names[i])[rows], self._units)
+        return Table(names, len(np.arange(self._count)[rows]), lambda i: self._by_name(names[i])[rows], self._units)
 
     def __reduce__(self) -> Any:
         return _restored, (self.columns, self._count, [self[name] for name in self.columns], self._units)

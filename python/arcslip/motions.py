@@ -1,0 +1,96 @@
+"""Motions over a period, as the histories of results have them."""
+
+from __future__ import annotations
+
+import math
+import operator
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .tables import Table
+
+if TYPE_CHECKING:
+    from .results import Result
+
+#: Instants at the ends of a period differ from them by rounding, relative to the period.
+ROUNDING = 1e-9
+
+
+class Loop(NamedTuple):
+    """A hysteresis loop: the force of an element over its displacement, in the order of time.
+
+    Attributes
+    ----------
+    displacement : array, shape (instants,)
+        m
+    force : array, shape (instants,)
+        N, against the motion.
+    """
+
+    displacement: NDArray[np.float64]
+    force: NDArray[np.float64]
+
+
+class Motion(Table):
+    """The instants of a period, with the columns of the history that it is a part of.
+
+    ``motion.time``, ``motion.displacement`` and ``motion.velocity`` are those of the response, in s, m and m/s;
+    ``motion.elements.damper.force`` and so on those of elements, where the history has them.
+
+    Attributes
+    ----------
+    period : float
+        s
+    """
+
+    def __init__(self, instants: Table, period: float) -> None:
+        names = instants.columns
+        super().__init__(names, len(instants), lambda i: instants[names[i]], instants.units)
+        self.period = period
+
+    @property
+    def loops(self) -> dict[str, Loop]:
+        """The loops of the elements by their names, of further directions of an element by "element.direction"."""
+        loops = {}
+        for column in self.columns:
+            place, _, quantity = column.rpartition(".")
+            if quantity == "force" and f"{place}.displacement" in self.columns:
+                name = place.removeprefix("elements.").replace(".directions.", ".")
+                loops[name] = Loop(self[f"{place}.displacement"], self[column])
+        return loops
+
+    def __reduce__(self) -> Any:
+        return Motion, (self[:], self.period)
+
+
+def motion_of(result: Result, of: Any) -> Motion:
+    """Return the motion of a result over one of the periods of its history.
+
+    Raises
+    ------
+    ValueError
+        If the result has no history.
+    TypeError
+        If `of` is a row.
+    IndexError
+        If the history has no such period.
+    """
+    history = result.tables.get("history")
+    if history is None:
+        raise ValueError(
+            f"found a {result.noun} of kind {result.kind!r}, whose points and events have no histories;"
+            " scene.point(frequency=...) and scene.time(frequency=...) have them"
+        )
+    if len(history) == 0:
+        raise ValueError(f"the {result.noun} has no history: {result.stop.get('message', result.status)}")
+    time = history["time"]
+    period = result.facts["period"] * math.tau / result.facts["omega"]
+    count = max(1, round((time[-1] - time[0]) / period))
+    try:
+        number = range(count)[operator.index(of)]
+    except IndexError:
+        raise IndexError(f"found period {of}, the history has {count}") from None
+    begin, end = time[0] + period * (number - ROUNDING), time[0] + period * (number + 1 + ROUNDING)
+    return Motion(history[np.searchsorted(time, begin) : np.searchsorted(time, end, "right")], period)
