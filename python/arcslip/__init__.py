@@ -15,19 +15,24 @@ from ._core import __version__
 from .errors import ArcslipWarning, Fault, ParameterError, SceneError
 from .files import load
 from .motions import Loop, Motion
+from .optimum import Optimum
 from .parameters import Parameter, Parameters
+from .quantities import Facts, Quantity
 from .results import Result, Results
 from .scene import Scene, schema
 from .tables import Row, Table
 
 __all__ = [
     "ArcslipWarning",
+    "Facts",
     "Fault",
     "Loop",
     "Motion",
+    "Optimum",
     "Parameter",
     "ParameterError",
     "Parameters",
+    "Quantity",
     "Result",
     "Results",
     "Row",

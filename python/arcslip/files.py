@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from .optimum import result
 from .results import HEADER, Result, Results, link
 from .tables import Table, as_array, packed
 
@@ -69,7 +70,7 @@ def _result(of: Mapping[str, Any], list_: str) -> Result:
     about = {key: of.get(key, "") for key in ("study", "kind", "status", "doubt")}
     about |= {"noun": NOUNS.get(list_, list_.removesuffix("s")), "facts": facts, "set_units": {}}
     about |= {"set": of.get("set", {}), "stop": of.get("stop", {})}
-    return Result(about, tables, {})
+    return result(about, tables, {})
 
 
 def load(path: str | os.PathLike[str]) -> Results:

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 from . import _core
+from .quantities import Quantity
 
 
-class Parameter(float):
+class Parameter(Quantity):
     """The value of a parameter: a number that knows its unit, bounds and meaning.
 
     Attributes
     ----------
     name : str
-    unit : str
-        "N", "N s/m"; "-" for a pure number.
     lower, upper : float
         Closed bounds, but where `lower_open`.
     lower_open : bool
@@ -24,23 +22,10 @@ class Parameter(float):
     """
 
     name: str
-    unit: str
     lower: float
     upper: float
     lower_open: bool
     help: str
-
-    def __new__(cls, value: float, **about: Any) -> Parameter:
-        made = super().__new__(cls, value)
-        made.__dict__.update(about)
-        return made
-
-    def __getnewargs_ex__(self) -> tuple[tuple[float], dict[str, Any]]:
-        return (float(self),), dict(self.__dict__)
-
-    def __repr__(self) -> str:
-        number = float.__repr__(self)
-        return number if self.unit in ("", "-") else f"{number} {self.unit}"
 
 
 class Parameters(Mapping[str, Parameter]):
@@ -63,5 +48,3 @@ class Parameters(Mapping[str, Parameter]):
     def __repr__(self) -> str:
         lines = [f"{name} = {value!r}" for name, value in self._all.items()]
         return "\n".join(lines if len(lines) <= 30 else [*lines[:28], f"... {len(lines) - 28} more"])
-
-

@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, Any
 from . import _core
 from .arrays import as_json
 from .errors import ArcslipWarning
+from .from_core import from_core, warn
 from .names import nearest
-from .results import Results, from_core, warn
+from .results import Results
 
 if TYPE_CHECKING:
     from .scene import Scene
