@@ -11,7 +11,7 @@ from .results import Result
 from .tables import Table
 
 #: What an optimum has of its own, before the columns of its table.
-OWN = ("design", "amplitude", "feasible", "response", "certificate", "gradient", "ranges")
+OWN = ("design", "amplitude", "feasible", "response", "certificate", "gradient", "ranges", "varied")
 
 
 class Optimum(Result):
@@ -24,7 +24,7 @@ class Optimum(Result):
     @property
     def design(self) -> dict[str, Quantity]:
         """The values of the parameters that were varied, each with its unit: what `Scene.replace` takes."""
-        return {name: Quantity(self._found[name], unit=self._unit(name)) for name in self._varied if name in self._found}
+        return {name: Quantity(self._found[name], unit=self._unit(name)) for name in self.varied if name in self._found}
 
     @property
     def amplitude(self) -> Quantity:
@@ -39,7 +39,7 @@ class Optimum(Result):
     @property
     def response(self) -> Facts:
         """The quantities of the response at the peak, as a point of a branch has them."""
-        return Facts({name: value for name, value in self._found.items() if name not in {*self._varied, "feasible"}})
+        return Facts({name: value for name, value in self._found.items() if name not in {*self.varied, "feasible"}})
 
     @property
     def certificate(self) -> Facts | None:
@@ -71,11 +71,12 @@ class Optimum(Result):
         return self.facts.get("optimum") or {}
 
     @property
-    def _varied(self) -> tuple[str, ...]:
-        return tuple(name for name in self._main.columns if name != "amplitude")
+    def varied(self) -> tuple[str, ...]:
+        """The names of the parameters that were varied."""
+        return tuple(name for name in self.main.columns if name != "amplitude")
 
     def _unit(self, name: str) -> str:
-        return self._main.units.get(name, "")
+        return self.main.units.get(name, "")
 
     def _names(self) -> list[str]:
         return [*OWN, *super()._names()]

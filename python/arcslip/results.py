@@ -10,11 +10,13 @@ from . import _core
 from .frames import chosen, data_frame, data_set, joined_frame
 from .motions import Motion, motion_of
 from .names import Named, nearest
+from .plotting import draw
 from .tables import Row, Table
 
 if TYPE_CHECKING:
     import pandas
     import xarray
+    from matplotlib.axes import Axes
 
 
 class Result(Named):
@@ -72,31 +74,32 @@ class Result(Named):
     @property
     def units(self) -> dict[str, str]:
         """The units of columns of the main table, and of the parameters of `set`."""
-        return {**self.set_units, **self._main.units}
+        return {**self.set_units, **self.main.units}
 
     @property
     def labels(self) -> dict[str, str]:
         """The label of an axis for each column of the main table: "amplitude (m)", or as the scene has it."""
         units = self.units
-        return {name: _label(name, units.get(name, ""), self._labels) for name in self._main.columns}
+        return {name: _label(name, units.get(name, ""), self._labels) for name in self.main.columns}
 
     @property
-    def _main(self) -> Table:
+    def main(self) -> Table:
+        """The main table: points, instants of a history, or designs."""
         return next(iter(self._tables.values()))
 
     def __getitem__(self, name: str) -> Any:
         if name in self._tables:
             return self._tables[name]
-        if name in self._main.columns or name not in self.facts:
-            return self._main[name]
+        if name in self.main.columns or name not in self.facts:
+            return self.main[name]
         return self.facts[name]
 
     def _names(self) -> list[str]:
-        return [*self._tables, *self.facts, *self._main.heads()]
+        return [*self._tables, *self.facts, *self.main.heads()]
 
     def __len__(self) -> int:
         """Return the number of rows of the main table."""
-        return len(self._main)
+        return len(self.main)
 
     def motion(self, of: int | Row = 0, /) -> Motion:
         """Return the motion over a period, with the forces and loops of the elements.
@@ -153,6 +156,34 @@ class Result(Named):
     def to_xarray(self, table: str | None = None) -> xarray.Dataset:
         """Return a table as a data set of xarray over the dimension `point`, as `Results.to_xarray` does for several."""
         return data_set([self], table).isel(combination=0)
+
+    def plot(self, ax: Axes | None = None, *, x: str | None = None, y: str | None = None) -> Axes:
+        """Draw the result with matplotlib.
+
+        A branch is drawn over its frequency or parameter, dashed where it is unstable, with its events marked; a motion over
+        time; a search over the parameter that it varied.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; by default in a new figure.
+        x, y : str, optional
+            Columns of the main table for the axes: ``y="elements.damper.stick_percent"``.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If the result has no rows, or if a column is not one of numbers.
+        KeyError
+            If there is no such column.
+        ImportError
+            If matplotlib is not installed: the extra ``arcslip[plot]`` has it.
+        """
+        return draw([self], ax, x, y)
 
     def __bool__(self) -> bool:
         return True
@@ -277,6 +308,37 @@ class Results(Sequence[Result]):
         'm'
         """
         return data_set(self._of(study), table)
+
+    def plot(
+        self, ax: Axes | None = None, *, x: str | None = None, y: str | None = None, study: str | None = None
+    ) -> Axes:
+        """Draw all results with matplotlib in one figure, as `Result.plot` does for one.
+
+        Results with the same values of `for_each` have the same colour.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; by default in a new figure.
+        x, y : str, optional
+            Columns of the main tables for the axes.
+        study : str, optional
+            The study whose results are drawn; by default all, which must then be of one kind.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If no result has rows, if the results are of several kinds, or if a column is not one of numbers.
+        KeyError
+            If there is no such column.
+        ImportError
+            If matplotlib is not installed: the extra ``arcslip[plot]`` has it.
+        """
+        return draw(self._of(study), ax, x, y)
 
     def to_json(self) -> str:
         """Return the text of the file that the command writes. Of results that were computed here, and not loaded."""

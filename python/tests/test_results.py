@@ -114,7 +114,7 @@ def test_missing_values_are_nan(branch: arcslip.Result) -> None:
 def test_columns_share_the_memory_of_the_computation(branch: arcslip.Result) -> None:
     amplitude = branch.amplitude
     assert not amplitude.flags.owndata and not amplitude.flags.writeable
-    assert np.shares_memory(amplitude, branch._main["amplitude"])
+    assert np.shares_memory(amplitude, branch.main["amplitude"])
     with pytest.raises(ValueError, match="read-only"):
         amplitude[0] = 1
 
