@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, overload
 
 from . import _core
 from .frames import chosen, data_frame, data_set, joined_frame
+from .markup import of_result, of_results
 from .motions import Motion, motion_of
 from .names import Named, nearest
 from .plotting import draw
@@ -194,6 +195,9 @@ class Result(Named):
         words = [f"{self.noun} of {self.study!r}" if self.study else self.noun, settings, tables, self.status]
         return f"<{', '.join(word for word in words if word)}>"
 
+    def _repr_html_(self) -> str:
+        return of_result(self)
+
 
 class Results(Sequence[Result]):
     """The results of one study or of several, in order.
@@ -267,10 +271,10 @@ class Results(Sequence[Result]):
         Examples
         --------
         >>> scene = arcslip.Scene("examples/duffing_jenkins/scene.json")
-        >>> responses = scene.frf(for_each={"damper.normal_load": [1.0, 4.0]})
+        >>> responses = scene.frf(for_each={"damper.normal_load": [0.8, 1.0]})
         >>> events = responses.to_dataframe("events")
         >>> events[events.kind == "peak"].groupby("damper.normal_load").amplitude.max().index.tolist()
-        [1.0, 4.0]
+        [0.8, 1.0]
         """
         return joined_frame(self._of(study), table)
 
@@ -287,8 +291,9 @@ class Results(Sequence[Result]):
         Returns
         -------
         xarray.Dataset
-            Each column is a variable over the dimensions `combination`, the results in order, and `point`, the rows of their
-            tables, of which shorter ones are filled up with NaN, texts with "". Lists of numbers have further dimensions.
+            Each column is a variable over the dimensions `combination`, the results in order, of which a combination may have
+            several, and `point`, the rows of their tables, of which shorter ones are filled up with NaN, texts with "". Lists
+            of numbers have further dimensions.
             The parameters that `for_each` sets are coordinates of `combination`. Units are in the ``attrs`` of each.
 
         Raises
@@ -301,7 +306,7 @@ class Results(Sequence[Result]):
         Examples
         --------
         >>> scene = arcslip.Scene("examples/duffing_jenkins/scene.json")
-        >>> data = scene.frf(for_each={"damper.normal_load": [1.0, 4.0]}).to_xarray()
+        >>> data = scene.frf(for_each={"damper.normal_load": [0.8, 1.0]}).to_xarray()
         >>> data.amplitude.max("point").swap_dims(combination="damper.normal_load").dims
         ('damper.normal_load',)
         >>> data.amplitude.attrs["units"]
@@ -361,6 +366,9 @@ class Results(Sequence[Result]):
         if len(self._all) > 20:
             lines.append(f"... {len(self._all) - 20} more")
         return "\n".join([f"<results of {self.title!r}: {len(self._all)}>", *lines])
+
+    def _repr_html_(self) -> str:
+        return of_results(self)
 
 
 HEADER = ("program", "scene_hash", "title", "frequency_unit", "reduction")

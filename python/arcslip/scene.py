@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from . import _core
 from .arrays import as_json
+from .markup import of_scene
 from .methods import StudyMethods
 from .parameters import Parameters
 from .results import Results
@@ -196,6 +197,9 @@ class Scene(StudyMethods):
             f"<scene {self.title!r}: {count} degree{'s' * (count != 1)} of freedom,"
             f" {len(self.parameters)} parameters; studies: {studies or 'none'}{more}>"
         )
+
+    def _repr_html_(self) -> str:
+        return of_scene(self)
 
 
 def _restored(text: str, folder: str, files: dict[str, bytes]) -> Scene:

@@ -9,10 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .frames import data_frame
+from .markup import of_table
 from .names import Named, nearest
 
 if TYPE_CHECKING:
     import pandas
+
+
+#: The types of columns without rows; of others they follow from the values.
+EMPTY = {"number": np.float64, "whole": np.int64, "flag": np.bool_}
 
 
 class Row(Named):
@@ -160,6 +165,9 @@ class Table(Named, Sequence[Row]):
         heads = ", ".join(self.heads())
         return f"<table of {self._count} rows: {heads if len(heads) < 300 else heads[:297] + '...'}>"
 
+    def _repr_html_(self) -> str:
+        return of_table(self)
+
 
 def _restored(columns: Sequence[str], count: int, values: list[NDArray[Any]], units: dict[str, str]) -> Table:
     return Table(columns, count, values.__getitem__, units)
@@ -169,6 +177,8 @@ def as_array(values: Any, type_: str) -> NDArray[Any]:
     """Return a column of a type of the schema, with None where a value is missing, as an array."""
     if isinstance(values, np.ndarray):
         return values
+    if len(values) == 0 and type_ in EMPTY:
+        return np.empty(0, EMPTY[type_])
     if type_ == "text":
         return np.array(["" if value is None else value for value in values], dtype=np.str_)
     return pack([packed(value) for value in values])
