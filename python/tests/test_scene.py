@@ -85,6 +85,33 @@ def test_all_faults_of_a_scene_are_reported(oscillator: dict[str, Any]) -> None:
     assert pickle.loads(pickle.dumps(caught.value)).faults == caught.value.faults
 
 
+def test_fault_has_what_was_found_what_is_allowed_and_the_nearest_word(oscillator: dict[str, Any]) -> None:
+    oscillator["elements"][0]["normal_lod"] = 1
+    oscillator["structure"]["masses"][0]["value"] = -1
+    oscillator["structure"]["masses"][0]["at"] = 'x", must be "y'
+    del oscillator["structure"]["springs"][0]["value"]
+    with pytest.raises(arcslip.SceneError) as caught:
+        arcslip.Scene(oscillator)
+    faults = {fault.pointer: fault for fault in caught.value.faults}
+    unknown = faults["/elements/0/normal_lod"]
+    assert unknown.found == 'the unknown key "normal_lod"'
+    assert unknown.near == "normal_load"
+    assert unknown.allowed is not None and unknown.allowed.startswith("one of ") and "did you mean" not in unknown.allowed
+    bound = faults["/structure/masses/0/value"]
+    assert (bound.found, bound.allowed, bound.near) == ("-1", "at least 0 kg", None)
+    place = faults["/structure/masses/0/at"]
+    assert place.found is not None and place.found.endswith(r'"x\", must be \"y"')
+    missing = faults["/structure/springs/0/value"]
+    assert missing.found == 'no key "value", which is required' and missing.allowed
+
+
+def test_message_of_another_form_has_no_parts() -> None:
+    fault = arcslip.Fault("/a", "must be a name of at least one character")
+    assert (fault.found, fault.allowed, fault.near) == (None, None, None)
+    escaped = arcslip.Fault("", r'found "a", must be "\"b\n"; did you mean "\"b\n"?')
+    assert escaped.near == '"b\n' and escaped.allowed == r'"\"b\n"'
+
+
 @pytest.mark.parametrize(
     "text", ["{", "{}", '{"format": "arcslip-scene-1"}', "{\0}", '{"title": NaN}', "{" * 1000, '{"a": "\ud800"}']
 )
