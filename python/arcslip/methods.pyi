@@ -24,7 +24,7 @@ class StudyMethods:
         study: str | None = None,
         for_each: Mapping[str, Sequence[float] | NDArray[Any]] | None = None,
         threads: int | None = None,
-        progress: Callable[[dict[str, Any]], object] | None = None,
+        progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
     ) -> Results: ...
     def trace(
@@ -41,7 +41,7 @@ class StudyMethods:
         study: str | None = None,
         for_each: Mapping[str, Sequence[float] | NDArray[Any]] | None = None,
         threads: int | None = None,
-        progress: Callable[[dict[str, Any]], object] | None = None,
+        progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
     ) -> Results: ...
     def peaks(
@@ -58,7 +58,7 @@ class StudyMethods:
         study: str | None = None,
         for_each: Mapping[str, Sequence[float] | NDArray[Any]] | None = None,
         threads: int | None = None,
-        progress: Callable[[dict[str, Any]], object] | None = None,
+        progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
     ) -> Results: ...
     def folds(
@@ -74,7 +74,7 @@ class StudyMethods:
         study: str | None = None,
         for_each: Mapping[str, Sequence[float] | NDArray[Any]] | None = None,
         threads: int | None = None,
-        progress: Callable[[dict[str, Any]], object] | None = None,
+        progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
     ) -> Results: ...
     def bifurcations(
@@ -93,7 +93,7 @@ class StudyMethods:
         study: str | None = None,
         for_each: Mapping[str, Sequence[float] | NDArray[Any]] | None = None,
         threads: int | None = None,
-        progress: Callable[[dict[str, Any]], object] | None = None,
+        progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
     ) -> Results: ...
     def time(
@@ -111,7 +111,7 @@ class StudyMethods:
         study: str | None = None,
         for_each: Mapping[str, Sequence[float] | NDArray[Any]] | None = None,
         threads: int | None = None,
-        progress: Callable[[dict[str, Any]], object] | None = None,
+        progress: bool | Callable[[dict[str, Any]], object] | None = None,
     ) -> Results: ...
     def point(
         self,
@@ -125,7 +125,7 @@ class StudyMethods:
         study: str | None = None,
         for_each: Mapping[str, Sequence[float] | NDArray[Any]] | None = None,
         threads: int | None = None,
-        progress: Callable[[dict[str, Any]], object] | None = None,
+        progress: bool | Callable[[dict[str, Any]], object] | None = None,
     ) -> Results: ...
     def modes(
         self,
@@ -137,7 +137,7 @@ class StudyMethods:
         study: str | None = None,
         for_each: Mapping[str, Sequence[float] | NDArray[Any]] | None = None,
         threads: int | None = None,
-        progress: Callable[[dict[str, Any]], object] | None = None,
+        progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
     ) -> Results: ...
     def sweep(
@@ -155,7 +155,7 @@ class StudyMethods:
         study: str | None = None,
         for_each: Mapping[str, Sequence[float] | NDArray[Any]] | None = None,
         threads: int | None = None,
-        progress: Callable[[dict[str, Any]], object] | None = None,
+        progress: bool | Callable[[dict[str, Any]], object] | None = None,
     ) -> Results: ...
     def accuracy(
         self,
@@ -167,7 +167,7 @@ class StudyMethods:
         study: str | None = None,
         for_each: Mapping[str, Sequence[float] | NDArray[Any]] | None = None,
         threads: int | None = None,
-        progress: Callable[[dict[str, Any]], object] | None = None,
+        progress: bool | Callable[[dict[str, Any]], object] | None = None,
     ) -> Results: ...
     def optimize(
         self,
@@ -193,5 +193,5 @@ class StudyMethods:
         study: str | None = None,
         for_each: Mapping[str, Sequence[float] | NDArray[Any]] | None = None,
         threads: int | None = None,
-        progress: Callable[[dict[str, Any]], object] | None = None,
+        progress: bool | Callable[[dict[str, Any]], object] | None = None,
     ) -> Results: ...

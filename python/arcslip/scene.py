@@ -13,8 +13,9 @@ from .arrays import as_json
 from .markup import of_scene
 from .methods import StudyMethods
 from .parameters import Parameters
+from .progress import Progress
 from .results import Results
-from .studies import Progress, run
+from .studies import run
 
 
 class Study(NamedTuple):
@@ -152,8 +153,9 @@ class Scene(StudyMethods):
             Whether results have the Fourier coefficients of the response.
         threads : int, optional
             Threads to use; by default as many as there are processors.
-        progress : callable, optional
-            Called with the progress some ten times a second; ends it by returning False.
+        progress : bool or callable, optional
+            True for a bar, of tqdm where it is installed; or a callable, called with the progress, a dict, some ten times a
+            second, which ends the computation by returning False.
 
         Returns
         -------

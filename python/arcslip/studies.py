@@ -16,13 +16,11 @@ from .arrays import as_json
 from .errors import ArcslipWarning
 from .from_core import from_core, warn
 from .names import nearest
+from .progress import Progress, reporting
 from .results import Results
 
 if TYPE_CHECKING:
     from .scene import Scene
-
-#: A callable that is given the progress of a computation, as a dict, and that ends it by returning False.
-Progress = Callable[[dict[str, Any]], object]
 
 TYPES = {
     "number": "float",
@@ -37,24 +35,28 @@ TYPES = {
     "followed": "str",
 }
 
+PROGRESS = (
+    "True for a bar, of tqdm where it is installed; or a callable, called with the progress, a dict, some ten times a second,"
+    " which ends the computation by returning False."
+)
 COMMON = {
     "study": ("str", "The study of the scene that gives the keys that are left out; by default the first of the kind."),
     "for_each": ("Mapping[str, Sequence[float] | NDArray[Any]]", "Values of parameters, for whose combinations the study is repeated."),
     "threads": ("int", "Threads to use; by default as many as there are processors."),
-    "progress": ("Callable[[dict[str, Any]], object]", "Called with the progress some ten times a second; ends it by returning False."),
+    "progress": ("bool | Callable[[dict[str, Any]], object]", PROGRESS),
 }
 COEFFICIENTS = ("bool", "Whether results have the Fourier coefficients of the response. Default: False.")
 
 
 def run(
-    scene: Scene, core: _core.Scene, which: Sequence[int], coefficients: bool, threads: int | None, progress: Any
+    scene: Scene, core: _core.Scene, which: Sequence[int], coefficients: bool, threads: int | None, progress: Progress | None
 ) -> Results:
     """Run studies of a scene. What ends them early is raised with the results so far as its attribute `results`."""
     if threads is not None and threads < 1:
         raise ValueError(f"found threads={threads}, must be at least 1")
-    if progress is not None and not callable(progress):
-        raise TypeError(f"found progress={progress!r}, must be callable")
-    found, begun, error = _core.run(core, list(which), coefficients, threads or os.cpu_count() or 1, progress)
+    studies = core.studies()
+    with reporting(progress, ", ".join(dict.fromkeys(studies[i][0] for i in which))) as report:
+        found, begun, error = _core.run(core, list(which), coefficients, threads or os.cpu_count() or 1, report)
     results = from_core(found, core.labels)
     if error is not None:
         error.results = results  # type: ignore[attr-defined]

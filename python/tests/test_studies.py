@@ -73,7 +73,7 @@ def test_wrong_value_of_a_key_is_a_fault(scene: arcslip.Scene, wrong: Any) -> No
         scene.frf(from_=wrong)
 
 
-@pytest.mark.parametrize("how", [{"threads": 0}, {"threads": "two"}, {"progress": 1}, {"coefficients": 2.5}])
+@pytest.mark.parametrize("how", [{"threads": 0}, {"threads": "two"}, {"progress": 1}, {"progress": "bar"}, {"coefficients": 2.5}])
 def test_wrong_option_is_refused(scene: arcslip.Scene, how: dict[str, Any]) -> None:
     with pytest.raises((TypeError, ValueError)):
         scene.frf(**how)
