@@ -4,9 +4,12 @@ A scene is a structure with its forces and studies, as in a scene file; a study 
 NumPy arrays:
 
 >>> import arcslip
->>> scene = arcslip.Scene("scene.json")                   # doctest: +SKIP
->>> branch, = scene.frf(from_=10, to=30)                  # doctest: +SKIP
->>> branch.amplitude.max(), branch.events["peak"]         # doctest: +SKIP
+>>> scene = arcslip.Scene("examples/duffing_jenkins/scene.json")
+>>> branch, = scene.frf()
+>>> branch.units["amplitude"]
+'m'
+>>> bool(branch.events["peak"].amplitude.max() >= branch.amplitude.max())
+True
 
 Public are the names of ``__all__``, and their attributes that do not begin with an underscore.
 """

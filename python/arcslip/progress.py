@@ -79,7 +79,8 @@ def bar(title: str) -> Bar:
 def share_done(now: Mapping[str, Any]) -> float:
     """Return the share of a study that is done, from 0 to 1; what is not known counts as nothing."""
     of_branch = now["share_done"] if math.isfinite(now["share_done"]) else 0.0
-    return min(max((now["branch"] + of_branch) / max(now["branches"], 1), 0.0), 1.0)
+    share: float = min(max((now["branch"] + of_branch) / max(now["branches"], 1), 0.0), 1.0)
+    return share
 
 
 def summary(now: Mapping[str, Any]) -> str:
@@ -120,6 +121,8 @@ def reporting(progress: Progress | None, title: str) -> Iterator[Report | None]:
     try:
         is_reported = shown is not None or own is not None or LOGGER.isEnabledFor(logging.DEBUG)
         yield report if is_reported else None
+        if shown is not None:
+            shown.show(1.0, "")
     finally:
         if shown is not None:
             shown.close()

@@ -49,7 +49,7 @@ COEFFICIENTS = ("bool", "Whether results have the Fourier coefficients of the re
 
 
 def run(
-    scene: Scene, core: _core.Scene, which: Sequence[int], coefficients: bool, threads: int | None, progress: Progress | None
+    core: _core.Scene, which: Sequence[int], coefficients: bool, threads: int | None, progress: Progress | None
 ) -> Results:
     """Run studies of a scene. What ends them early is raised with the results so far as its attribute `results`."""
     if threads is not None and threads < 1:
@@ -57,10 +57,10 @@ def run(
     studies = core.studies()
     with reporting(progress, ", ".join(dict.fromkeys(studies[i][0] for i in which))) as report:
         found, begun, error = _core.run(core, list(which), coefficients, threads or os.cpu_count() or 1, report)
-    results = from_core(found, core.labels)
-    if error is not None:
-        error.results = results  # type: ignore[attr-defined]
-        raise error
+        results = from_core(found, core.labels)
+        if error is not None:
+            error.results = results  # type: ignore[attr-defined]
+            raise error
     warn(found, 3)
     if begun < len(which):
         warnings.warn(f"stopped: {len(which) - begun} of {len(which)} studies were not started", ArcslipWarning, 3)
@@ -169,7 +169,7 @@ def method(kind: Mapping[str, Any]) -> Callable[..., Results]:
         index = _template(core, kind["name"], study, keys.get("over"))
         text, _ = as_json(keys)
         core, index = core.with_study(kind["name"], index, text)
-        return run(self, core, [index], coefficients, threads, progress)
+        return run(core, [index], coefficients, threads, progress)
 
     study_of_kind.__name__ = kind["verb"]
     study_of_kind.__qualname__ = f"Scene.{kind['verb']}"

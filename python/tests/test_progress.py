@@ -59,8 +59,8 @@ def test_bar_is_that_of_tqdm_where_it_is_installed(slow: Slow, monkeypatch: pyte
     with reporting(True, "response") as report:
         assert report is not None
         interrupt(slow, report)
-    assert len(shown) == 4 and all(0 <= share < 1 for share, _ in shown)
-    assert "branch 1/20000" in shown[0][1] or "/20000" in shown[0][1]
+    assert len(shown) == 5 and all(0 <= share < 1 for share, _ in shown[:4]) and shown[4][0] == 1
+    assert "/20000" in shown[0][1]
 
 
 @pytest.mark.parametrize("progress", [True, False, None])
@@ -80,7 +80,8 @@ def test_bar_without_tqdm_is_a_line_that_is_rewritten(
         assert report is not None
         interrupt(slow, report)
     text = sys.stderr.getvalue()  # type: ignore[attr-defined]
-    assert text.count("\rresponse: ") == 4 and text.endswith("\n") and text.count("\n") == 1
+    assert text.count("\rresponse: ") == 5 and text.endswith("\n") and text.count("\n") == 1
+    assert text.rsplit("\r", 1)[1].startswith("response: 100 %")
 
 
 def test_bar_of_no_terminal_is_a_line_for_each_tenth(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -109,8 +110,8 @@ def test_bar_is_closed_where_a_callback_fails(slow: Slow, monkeypatch: pytest.Mo
 
 
 def test_wrong_progress_is_refused() -> None:
-    with pytest.raises(TypeError, match="found progress=1, must be True or callable"), reporting(1, "response"):  # type: ignore[arg-type]
-        pass
+    with pytest.raises(TypeError, match="found progress=1, must be True or callable"):
+        reporting(1, "response").__enter__()  # type: ignore[arg-type]
 
 
 def test_log_has_the_begin_and_the_end(scene: arcslip.Scene, caplog: pytest.LogCaptureFixture) -> None:
