@@ -42,6 +42,21 @@ void write_record(std::ostream& out, const Record& values) {
   out << '\n';
 }
 
+/// Writes what has an axis.
+void write_record(std::ostream& out, const FigureData& data, const Record& values) {
+  Record shown;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (data.columns[i].has_axis) shown.push_back(values[i]);
+  write_record(out, shown);
+}
+
+/// Returns the number of a column in the file of data, from 1.
+std::string column_number(const FigureData& data, std::size_t column) {
+  const auto last = data.columns.begin() + static_cast<std::ptrdiff_t>(column) + 1;
+  return std::to_string(
+      std::count_if(data.columns.begin(), last, [](const FigureColumn& each) { return each.has_axis; }));
+}
+
 /// Returns how points of a mark are drawn.
 std::string point_style(const results::Mark& mark) {
   std::string text = "pointtype " + std::to_string(static_cast<int>(mark.shape));
@@ -225,7 +240,7 @@ void add_bands_to_key(const FigureData& data, std::vector<std::string>& curves) 
 }
 
 void write_plot(std::ostream& out, const FigureData& data, const Figure& figure) {
-  const std::string columns = " using " + std::to_string(figure.x + 1) + ":" + std::to_string(figure.y + 1);
+  const std::string columns = " using " + column_number(data, figure.x) + ":" + column_number(data, figure.y);
   const std::size_t count = data.lines.size();
   const std::size_t key_step = (count + most_in_key - 1) / most_in_key;
   std::vector<std::string> curves;
@@ -288,6 +303,7 @@ std::vector<std::string> image_names(const FigureData& data, const std::string& 
 void write_figure_data(std::ostream& out, const FigureData& data) {
   const char* separator = "# ";
   for (const FigureColumn& column : data.columns) {
+    if (!column.has_axis) continue;
     out << separator << results::visible(column.label);
     separator = ", ";
   }
@@ -300,7 +316,7 @@ void write_figure_data(std::ostream& out, const FigureData& data) {
       if (unstable) out << "# unstable\n";
       for (std::size_t i = 0; i < line.parts.size(); ++i) {
         if ((i < line.unstable.size() && line.unstable[i]) != unstable) continue;
-        for (const Record& values : line.parts[i]) write_record(out, values);
+        for (const Record& values : line.parts[i]) write_record(out, data, values);
         out << '\n';
       }
       out << '\n';
@@ -309,7 +325,7 @@ void write_figure_data(std::ostream& out, const FigureData& data) {
       bool any = false;
       for (const FigureMark& mark : line.marks) {
         if (mark.kind == kind) {
-          write_record(out, mark.record);
+          write_record(out, data, mark.record);
           any = true;
         }
       }

@@ -22,7 +22,9 @@ enum class Scale { linear, logarithmic, percent };
 struct FigureColumn {
   std::string label;  // "frequency (Hz)"
   Scale scale = Scale::linear;
-  Range range{};  // of the values that the scale can show; lower > upper: none
+  Range range{};              // of the values that the scale can show; lower > upper: none
+  bool has_axis = true;       // false: shown at a point alone, and in no file of data
+  bool is_frequency = false;  // of the excitation, whose multiples mean something
 };
 
 using Record = std::vector<double>;  // a value for each column, NaN if missing

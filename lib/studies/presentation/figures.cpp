@@ -50,6 +50,39 @@ double percent(const observables::ResponsePoint& point, const Share& share) {
 
 using observables::ResponseBranch;
 using observables::ResponsePoint;
+
+// What a point reported on no axis.
+struct Reported {
+  const char* label;
+  double (*value)(const ResponsePoint& point);
+};
+
+double largest_multiplier(const ResponsePoint& point) {
+  const bool known = point.stability && !point.stability->multipliers.empty();
+  return known ? std::abs(point.stability->multipliers.front()) : observables::no_value;
+}
+
+// The quantities of a point, in their order: those of its kind, shares, reported.
+struct Quantities {
+  std::vector<Share> shares;
+  std::vector<Reported> reported;
+};
+
+Quantities quantities_of(BranchKind kind, std::span<const ResponseBranch* const> branches) {
+  Quantities all{contact_shares(branches), {}};
+  if (kind != BranchKind::modes)
+    all.reported.push_back({"estimated error of the amplitude (m)",
+                            [](const ResponsePoint& point) { return point.truncation_estimate; }});
+  const bool has_multipliers =
+      std::any_of(branches.begin(), branches.end(), [](const ResponseBranch* branch) {
+        return std::any_of(branch->points.begin(), branch->points.end(), [](const ResponsePoint& point) {
+          return std::isfinite(largest_multiplier(point));
+        });
+      });
+  if (has_multipliers) all.reported.push_back({"largest multiplier (modulus)", largest_multiplier});
+  return all;
+}
+
 using results::Figure;
 using results::FigureColumn;
 using results::FigureData;
@@ -61,18 +94,18 @@ using results::Scale;
 constexpr double decade = 10;
 constexpr std::size_t damping_column = 2;  // of modes
 
-Record record(const scene::Scene& scene, BranchKind kind, const std::vector<Share>& shares,
+Record record(const scene::Scene& scene, BranchKind kind, const Quantities& quantities,
               const ResponsePoint& point) {
   Record values;
   if (kind == BranchKind::modes) {
     values = {point.amplitude, in_scene_unit(scene, point.omega), point.damping_ratio};
-    for (const Share& share : shares) values.push_back(percent(point, share));
-    return values;
+  } else {
+    if (kind != BranchKind::responses) values.push_back(point.over);
+    values.push_back(in_scene_unit(scene, point.omega));
+    values.push_back(point.unbounded ? observables::no_value : point.amplitude);
   }
-  if (kind != BranchKind::responses) values.push_back(point.over);
-  values.push_back(in_scene_unit(scene, point.omega));
-  values.push_back(point.unbounded ? observables::no_value : point.amplitude);
-  for (const Share& share : shares) values.push_back(percent(point, share));
+  for (const Share& share : quantities.shares) values.push_back(percent(point, share));
+  for (const Reported& report : quantities.reported) values.push_back(report.value(point));
   return values;
 }
 
@@ -82,7 +115,7 @@ void set_ranges(BranchKind kind, FigureData& data) {
   for (std::size_t i = 0; i < data.columns.size(); ++i) {
     FigureColumn& column = data.columns[i];
     column.range = results::full_range(data, i);
-    if (column.scale == Scale::percent || i == frequency_column(kind)) continue;
+    if (column.scale == Scale::percent || i == frequency_column(kind) || !column.has_axis) continue;
     if (kind == BranchKind::modes && i == damping_column) continue;
     const bool is_amplitude = i == amplitude_column(kind);
     const Range positive = is_amplitude ? results::range_of(data, i, 0) : column.range;
@@ -94,7 +127,7 @@ void set_ranges(BranchKind kind, FigureData& data) {
   }
 }
 
-void set_columns(const scene::Scene& scene, BranchKind kind, const std::vector<Share>& shares,
+void set_columns(const scene::Scene& scene, BranchKind kind, const Quantities& quantities,
                  const std::string& over, FigureData& data) {
   const FigureColumn amplitude{results::with_unit(label_of(scene, "amplitude"), "m")};
   if (kind == BranchKind::modes) data.columns.push_back(amplitude);
@@ -103,9 +136,12 @@ void set_columns(const scene::Scene& scene, BranchKind kind, const std::vector<S
         {results::with_unit(label_of(scene, over), over.empty() ? "" : parameter_unit(scene, over))});
   data.columns.push_back(
       {results::with_unit(label_of(scene, "frequency"), scene::unit_name(scene.frequency_unit))});
+  data.columns.back().is_frequency = kind != BranchKind::modes;
   data.columns.push_back(kind == BranchKind::modes ? FigureColumn{"damping ratio"} : amplitude);
-  for (const Share& share : shares)
+  for (const Share& share : quantities.shares)
     data.columns.push_back({share.element + " " + share.state + " (%)", Scale::percent});
+  for (const Reported& report : quantities.reported)
+    data.columns.push_back({report.label, Scale::linear, {}, false});
 }
 
 /// A figure for each state of each contact, with its share on one of the axes.
@@ -207,8 +243,8 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
   std::vector<const ResponseBranch*> branches;
   for (const LineOfBranches& each : lines)
     branches.insert(branches.end(), each.branches.begin(), each.branches.end());
-  const std::vector<Share> shares = contact_shares(branches);
-  set_columns(scene, kind, shares, branches.empty() ? "" : branches.front()->over, data);
+  const Quantities quantities = quantities_of(kind, branches);
+  set_columns(scene, kind, quantities, branches.empty() ? "" : branches.front()->over, data);
   for (LineOfBranches& each : lines) {
     FigureLine line = std::move(each.line);
     for (const ResponseBranch* branch : each.branches) {
@@ -218,16 +254,16 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
         line.unbounded = line.unbounded || event.point.unbounded;
         const results::EventKind of = observables::event_kinds::kind_named(event.kind);
         if (of.mark.shape != results::Shape::none)
-          line.marks.push_back({of, record(scene, kind, shares, event.point)});
+          line.marks.push_back({of, record(scene, kind, quantities, event.point)});
       }
       for (const ResponsePoint& point : branch->points) line.unbounded = line.unbounded || point.unbounded;
       add_parts(
-          *branch, [&](const ResponsePoint& point) { return record(scene, kind, shares, point); }, line);
+          *branch, [&](const ResponsePoint& point) { return record(scene, kind, quantities, point); }, line);
     }
     if (!line.parts.empty()) data.lines.push_back(std::move(line));
   }
   set_ranges(kind, data);
-  set_figures(scene, kind, shares, data);
+  set_figures(scene, kind, quantities.shares, data);
   if (data.lines.size() == 1 && kind != BranchKind::folds && kind != BranchKind::bifurcations) {
     const auto column_0 = [&](const ResponsePoint& point) { return record(scene, kind, {}, point)[0]; };
     for (Figure& figure : contact_figures(branches, data.columns[0].label, column_0))
