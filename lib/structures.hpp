@@ -33,6 +33,7 @@
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/output/atomic_file.hpp>
 #include <arcslip/output/figures.hpp>
+#include <arcslip/report/report.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/results/table_writer.hpp>

@@ -47,10 +47,11 @@ set(studies/presentation control results scene laws model observables analyses/m
 set(studies control results scene scene/keys laws/memoryless laws/hysteresis laws/contact stability observables
     analyses/responses analyses/curves analyses/modes_and_time studies/presentation studies)
 set(output control results output)
+set(report results scene report)
 set(structures ${continuation} control results scene scene/keys scene/files scene/format fourier formula laws laws/memoryless
     laws/hysteresis laws/contact structure model hbm/linear hbm time/equation time/event_driven time/newmark
     time/periodic stability observables analyses/branches analyses/responses analyses/curves analyses/modes_and_time
-    studies/presentation studies output)
+    studies/presentation studies output report)
 
 set(optimize/nlopt ${structures} optimize/nlopt)
 set(optimize/peaks ${structures} optimize/nlopt optimize/peaks)

@@ -1,0 +1,85 @@
+#include <arcslip/report/parts.hpp>
+
+#include <arcslip/results/event_kinds.hpp>
+#include <arcslip/results/text.hpp>
+#include <arcslip/scene/combinations.hpp>
+
+#include <algorithm>
+#include <map>
+
+namespace arcslip::report {
+namespace {
+
+constexpr std::size_t most_parameters = 500;
+
+void write_titles(Html& html, const std::vector<std::string>& titles) {
+  html.open("thead").open("tr");
+  for (const std::string& title : titles) html.element("th", title, {{"scope", "col"}});
+  html.close().close();
+}
+
+/// Which studies go over a parameter: "12 values from 0.01 to 500 in the study "frf"".
+std::map<std::string, std::string> varied(const scene::Scene& scene) {
+  std::map<std::string, std::string> all;
+  for (const scene::Study& study : scene.studies)
+    for (const auto& [name, values] : study.for_each) {
+      if (values.empty()) continue;
+      const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+      std::string& text = all[name];
+      text += (text.empty() ? "" : "; ") + std::to_string(values.size()) + " values from " +
+              results::shortest(*lowest) + " to " + results::shortest(*highest) + " in the study \"" +
+              study.name + "\"";
+    }
+  return all;
+}
+
+}  // namespace
+
+void write_parameters(Html& html, const Contents& contents) {
+  const scene::Scene& scene = contents.scene;
+  const std::vector<std::string> names = scene::parameter_names(scene);
+  const std::map<std::string, std::string> over = varied(scene);
+  html.open("details", {{"open", ""}, {"class", "parameters"}}).element("summary", "Parameters");
+  html.open("div", {{"class", "wide"}}).open("table", {{"class", "sortable"}});
+  write_titles(html, {"parameter", "value", "unit", "what it is", "varied"});
+  html.open("tbody");
+  for (std::size_t i = 0; i < std::min(names.size(), most_parameters); ++i) {
+    const scene::Field& field = *scene::parameter_fields(scene, names[i]).front();
+    const auto values = over.find(names[i]);
+    html.open("tr").element("th", names[i], {{"scope", "row"}});
+    html.element("td", results::shortest(scene::value(scene, names[i])), {{"class", "number"}});
+    html.element("td", field.unit).element("td", field.help);
+    html.element("td", values == over.end() ? "" : values->second).close();
+  }
+  html.close().close().close();
+  if (names.size() > most_parameters)
+    html.element("p", "The scene has " + std::to_string(names.size()) + " parameters, of which the first " +
+                          std::to_string(most_parameters) + " stand here; arcslip check prints all.");
+  html.close();
+}
+
+void write_results(Html& html, const StudyContents& study, const std::string& row_id) {
+  if (study.rows.empty()) return;
+  std::vector<std::string> titles;
+  for (const results::Column& column : study.schema.set)
+    titles.push_back(results::with_unit(name(column), column.unit));
+  for (const results::Shown& each : study.schema.shown) titles.push_back(each.title);
+  titles.push_back(study.schema.noun);
+  html.open("div", {{"class", "wide"}}).open("table", {{"class", "sortable results"}});
+  write_titles(html, titles);
+  html.open("tbody");
+  for (std::size_t i = 0; i < study.rows.size(); ++i) {
+    html.open("tr", {{"id", row_id + "-" + std::to_string(i)}});
+    for (const std::string& cell : study.rows[i].cells) {
+      const bool is_kind = !study.rows[i].kind.empty() && cell == study.rows[i].kind;
+      html.element("td", is_kind ? observables::event_kinds::words_of(cell) : cell);
+    }
+    html.close();
+  }
+  html.close().close().close();
+  if (study.left_out > 0)
+    html.element("p", "The page shows the first " + std::to_string(study.results - study.left_out) + " of " +
+                          std::to_string(study.results) + " results; the files have them all.");
+}
+
+}  // namespace arcslip::report
