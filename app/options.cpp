@@ -107,6 +107,10 @@ void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts&
                   "write results as CSV to a file, with events and a summary in further files (a.events.csv, "
                   "a.summary.csv), or - for standard output")
       ->type_name("FILE|-");
+  verb.add_option("--report", options.report,
+                  std::string("write results as a page for a browser, in one file (default: ") +
+                      (of.name == run_verb ? "report.html in the folder for results)" : "none is written)"))
+      ->type_name("FILE");
   if (of.type == nullptr || studies::kind_of(*of.type).takes_coefficients()) {
     verb.add_flag("--coefficients", options.coefficients,
                   "include the Fourier coefficients of each response in JSON");
@@ -147,10 +151,20 @@ std::optional<double> number_of(const CommandOptions& options, const std::string
   return std::nullopt;
 }
 
-void check_consistent(const CommandOptions& options, bool json_given, bool csv_given, bool out_given) {
-  if ((json_given && options.json.empty()) || (csv_given && options.csv.empty()) ||
-      (out_given && options.out.empty()))
-    throw UsageError("--out, --json and --csv need a nonempty name");
+bool given(const CLI::App& verb, const std::string& option) {
+  const CLI::Option* found = verb.get_option_no_throw(option);
+  return found != nullptr && found->count() > 0;
+}
+
+void check_consistent(const CommandOptions& options, const CLI::App& verb) {
+  for (const auto& [option, path] : {std::pair{"--json", &options.json},
+                                     {"--csv", &options.csv},
+                                     {"--out", &options.out},
+                                     {"--report", &options.report}})
+    if (given(verb, option) && path->empty())
+      throw UsageError("--out, --json, --csv and --report need a nonempty name");
+  if (options.report == "-")
+    throw UsageError("--report needs the name of a file: a page does not go to standard output");
   if (!options.json.empty() && options.json == options.csv) {
     throw UsageError("--json and --csv both go to " +
                      (options.json == "-" ? "standard output" : options.json) +
@@ -161,11 +175,6 @@ void check_consistent(const CommandOptions& options, bool json_given, bool csv_g
     throw UsageError("--from must be below --to; found --from " + results::shortest(*from) + " and --to " +
                      results::shortest(*to));
   }
-}
-
-bool given(const CLI::App& verb, const std::string& option) {
-  const CLI::Option* found = verb.get_option_no_throw(option);
-  return found != nullptr && found->count() > 0;
 }
 
 void check_values_given(const CLI::App& verb, const Texts& texts) {
@@ -240,7 +249,7 @@ std::variant<CommandOptions, Information> parse(int argc, const char* const* arg
   options.verb = chosen.name;
   options.type = chosen.type;
   read_texts(*verb, chosen, texts, options);
-  check_consistent(options, given(*verb, "--json"), given(*verb, "--csv"), given(*verb, "--out"));
+  check_consistent(options, *verb);
   return options;
 }
 

@@ -39,6 +39,7 @@ struct CommandOptions {
   std::optional<double> accuracy;
   std::vector<GivenKey> keys;       // of the study; run: of its frequency responses
   std::string out, json, csv;       // paths, "-" for standard output (json, csv), "" for none
+  std::string report;               // path; "": run writes it to its folder, other verbs none
   std::optional<int> combinations;  // of for_each, maximum
   std::optional<int> threads;       // combinations computed at the same time
   bool coefficients = false;

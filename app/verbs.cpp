@@ -14,6 +14,7 @@
 #include <arcslip/model/reduced_scene.hpp>
 #include <arcslip/model/reduction_report.hpp>
 #include <arcslip/output/atomic_file.hpp>
+#include <arcslip/report/report.hpp>
 #include <arcslip/results/table_writer.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/results/version.hpp>
@@ -39,8 +40,21 @@
 namespace arcslip::app {
 namespace {
 
+constexpr const char *own_report = "report.html", *set_of_report = "the report";
+
 bool takes_standard_output(const CommandOptions& options) {
   return options.json == "-" || options.csv == "-";
+}
+
+/// Whether the report goes to the folder of results.
+bool has_own_report(const CommandOptions& options) {
+  return options.verb == "run" && options.report.empty();
+}
+
+/// Where the report goes; "": there is none.
+std::string report_path(const CommandOptions& options) {
+  return has_own_report(options) ? (std::filesystem::path(options.out) / own_report).string()
+                                 : options.report;
 }
 
 /// Checks that all results can be written, before anything is computed. Returns the locked output folder.
@@ -57,6 +71,8 @@ std::optional<ResultsFolder> prepare_places(const CommandOptions& options, const
   }
   if (!options.json.empty() && options.json != "-") places.push_back({"--json", options.json});
   if (!options.csv.empty()) add_csv_places("--csv", options.csv, places);
+  if (const std::string report = report_path(options); !report.empty())
+    places.push_back({set_of_report, report});
   check_places(places, sources);
   return folder;
 }
@@ -252,7 +268,11 @@ class StudiesRun {
         held_(prepare_places(options, scene, studies, files_)),
         header_(studies::header(scene)),
         schemas_(schemas_of(scene, studies, how_)),
-        common_(options, header_, schemas_) {}
+        common_(options, header_, schemas_) {
+    if (report_path(options).empty()) return;
+    report_.emplace(scene, studies);
+    report_->begin(header_, schemas_);
+  }
 
   ExitCode run() {
     for (std::size_t i = 0; i < studies_.size(); ++i)
@@ -270,7 +290,7 @@ class StudiesRun {
     const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     return {.points = !options.out.empty() || !options.json.empty() || !options.csv.empty(),
             .coefficients = options.coefficients,
-            .figures = !options.out.empty(),
+            .figures = !options.out.empty() || !report_path(options).empty(),
             .threads = options.threads.value_or(processors)};
   }
 
@@ -290,16 +310,48 @@ class StudiesRun {
     results::Remarks remarks;
     OpenFiles own(options_.out.empty() ? std::vector<File>() : own_files(files_[i], schemas_[i]));
     OneOfSeveral among(common_.sink(), i);
-    Tee sinks({&table, &remarks, &own, &among});
+    std::vector<results::Sink*> all{&table, &remarks, &own, &among};
+    std::optional<OneOfSeveral> of_report;
+    if (report_) all.push_back(&of_report.emplace(*report_, i));
+    Tee sinks(std::move(all));
     sinks.begin(header_, std::span(&schemas_[i], 1));
-    const std::vector<results::FigureData> figures =
+    std::vector<results::FigureData> figures =
         compute_visibly(scene_, studies_[i], how_, options_, sinks, interruption_);
     sinks.finish();
     if (how_.figures && !options_.quiet) tell_not_drawn(studies_[i], figures);
     tell_remarks(remarks);
-    if (!held_) return;
-    for (const std::string& path : write_set(*held_, files_[i], scene_, header_, own, figures, writing_))
-      places_ += results::visible(path) + "\n";
+    if (held_)
+      for (const std::string& path : write_set(*held_, files_[i], scene_, header_, own, figures, writing_))
+        places_ += results::visible(path) + "\n";
+    if (report_) report_->add_figures(i, std::move(figures));
+  }
+
+  /// Returns whether the page was written.
+  bool write_page(const std::string& path) {
+    return writing_.attempt(results::visible(path), [&] {
+      output::write_file(path, [&](std::ostream& out) { report_->write(out); }, by_signal());
+    });
+  }
+
+  /// In the folder of results the page is a set of its own, which is dropped where the page goes elsewhere.
+  void write_report() {
+    const std::string path = report_path(options_);
+    const bool is_own = has_own_report(options_);
+    const bool is_set = held_ && options_.verb == "run" &&
+                        (is_own || std::filesystem::exists(std::filesystem::path(options_.out) / own_report));
+    scene::FileSet set{set_of_report, header_.program, header_.scene_hash, false, {}};
+    if (is_own) set.files.push_back({own_report});
+    if (is_set && !writing_.attempt("the manifest", [&] { held_->begin_set(set); })) {
+      writing_.misses(results::visible(path));
+      return;
+    }
+    const bool is_written = write_page(path);
+    if (is_written) places_ += results::visible(path) + "\n";
+    if (is_set)
+      writing_.attempt("the manifest", [&] {
+        const std::vector<std::string> written(is_own && is_written ? 1 : 0, path);
+        held_->end_set(set.name, written, is_written);
+      });
   }
 
   void tell_remarks(const results::Remarks& remarks) {
@@ -318,6 +370,7 @@ class StudiesRun {
         for (const std::string& path : older_tables(options_.csv, schemas_))
           tell(results::visible(path) + " is left from earlier results: these have no such table");
       common_.finish(writing_, screen);
+      if (report_) write_report();
     }
     if (!takes_standard_output(options_)) {
       if (!places_.empty() && !options_.quiet) tables_ << '\n' << places_;
@@ -341,6 +394,7 @@ class StudiesRun {
   const results::Header header_;
   const std::vector<results::Schema> schemas_;
   CommonResults common_;
+  std::optional<report::Report> report_;
   Interruption interruption_;
   Writing writing_;
   ExitCode code_ = ExitCode::done;

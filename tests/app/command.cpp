@@ -160,7 +160,7 @@ TEST_CASE("run writes every study into out/NAME and reports the places of the fi
     CAPTURE(figure);
     CHECK(std::filesystem::exists(place / ("out/two/peaks" + std::string(figure) + ".svg")));
   }
-  CHECK(place.files().size() == 2 + 2 + 24 + 15 + 20 + 1);  // scenes, folders, results, manifest
+  CHECK(place.files().size() == 2 + 2 + 24 + 15 + 20 + 2);  // scenes, folders, results, manifest, report
   CHECK(Json::parse(place.read("out/two/frf.json"))["branches"].size() == 12);
 }
 
@@ -192,7 +192,8 @@ TEST_CASE("without gnuplot run says so, writes the data all the same, and is don
   const Ended ended = run(place, {"run", "scene.json", "--harmonics", "1"}, {{"PATH", "/nonexistent"}});
   CHECK(ended.exit_code == 0);
   CHECK(ended.err.find("arcslip: figures need gnuplot (Debian package gnuplot-nox)") == 0);
-  std::vector<std::string> expected{"out", "out/scene", "out/scene/arcslip-manifest.json", "scene.json"};
+  std::vector<std::string> expected{"out", "out/scene", "out/scene/arcslip-manifest.json",
+                                    "out/scene/report.html", "scene.json"};
   for (const std::string study : {"best_load", "frf", "peaks"})
     for (const char* extension : {".csv", ".dat", ".gp", ".json", ".scene.json"})
       expected.push_back("out/scene/" + study + extension);

@@ -6,9 +6,15 @@ namespace app_test {
 
 const std::vector<Interruption>& interruptions() {
   static const std::string partial = "the results so far will be written";
-  static const std::vector<std::string> results{
-      "results",        "results/frf.csv",  "results/frf.dat",        "results/frf.events.csv",
-      "results/frf.gp", "results/frf.json", "results/frf.scene.json", "results/frf.summary.csv"};
+  static const std::vector<std::string> results{"results",
+                                                "results/frf.csv",
+                                                "results/frf.dat",
+                                                "results/frf.events.csv",
+                                                "results/frf.gp",
+                                                "results/frf.json",
+                                                "results/frf.scene.json",
+                                                "results/frf.summary.csv",
+                                                "results/report.html"};
   static const std::vector<Interruption> rows = {
       {"Ctrl-C (SIGINT) in the middle of run",
        {"run", "long.json", "--out", "results"},
@@ -101,7 +107,8 @@ const std::vector<RandomInterruption>& random_interruptions() {
         "results/best_load.dat",
         "results/best_load.gp",
         "results/best_load_responses.dat",
-        "results/best_load_responses.gp"}},
+        "results/best_load_responses.gp",
+        "results/report.html"}},
       {{"check", "scene.json"}, paper, {}},
   };
   return rows;
