@@ -8,7 +8,7 @@ namespace {
 
 // Pixels.
 constexpr double margin = 24, gap_width = 150, box_width = 96, row_height = 66, head_room = 58,
-                 foot_room = 34;
+                 foot_room = 44;
 
 double left_of(int column) {
   return margin + gap_width + column * (gap_width + box_width);
@@ -80,18 +80,19 @@ void write_body(Html& html, const Schematic& of) {
                       {"x", pixels(left)},
                       {"y", pixels(head_room - 10)},
                       {"width", pixels(right - left)},
-                      {"height", pixels(of.rows * row_height + 20)},
+                      {"height", pixels(of.rows * row_height + 34)},
                       {"rx", "10"}});
   html.element(
       "text", of.body,
-      {{"class", "value"}, {"x", pixels(left + 8)}, {"y", pixels(head_room + of.rows * row_height + 26)}});
+      {{"class", "value"}, {"x", pixels(left + 8)}, {"y", pixels(head_room + of.rows * row_height + 38)}});
 }
 
 void write_conventions(Html& html, const Schematic& of) {
   html.open("div", {{"class", "conventions"}});
   if (of.why_not.empty())
     html.element("p",
-                 "A motion to the right is positive. The displacement of a link is that of its end with "
+                 "The drawing has all motions along one axis, positive to the right. The displacement of a "
+                 "link is that of its end with "
                  "the sign + less that of the other end, and its force acts against it.");
   if (of.has_normal_loads)
     html.element("p",

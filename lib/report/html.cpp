@@ -77,6 +77,11 @@ Html& Html::raw(std::string_view markup) {
   return *this;
 }
 
+std::string plain_number(double value) {
+  constexpr int digits = 10;
+  return results::to_digits(value, digits);
+}
+
 std::string pixels(double value) {
   constexpr double tenth = 10;
   const double rounded = std::round(value * tenth) / tenth;

@@ -47,6 +47,9 @@ class Html {
   std::vector<std::string> open_;
 };
 
+/// A number for people: "500000", "0.134", "1e-12".
+std::string plain_number(double value);
+
 /// A length in a drawing, to a tenth of a pixel.
 std::string pixels(double value);
 

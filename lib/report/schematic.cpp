@@ -53,7 +53,8 @@ std::optional<Ends> ends_of(const Direction& direction) {
 std::string value_of(const Part& part) {
   const auto fields = part.fields();
   for (std::size_t i = 0; i < std::min(fields.size(), part.values.size()); ++i)
-    if (part.values[i] != 0) return results::quantity(part.values[i], fields[i].unit);
+    if (part.values[i] != 0)
+      return plain_number(part.values[i]) + (fields[i].unit == "-" ? "" : " " + std::string(fields[i].unit));
   return "0";
 }
 
@@ -99,6 +100,7 @@ class Layout {
       found_.has_normal_loads = found_.has_normal_loads || has_normal_load(element);
       add_link(element, symbol_of(element), std::string(element.type->name()));
     }
+    found_.has_normal_loads = found_.has_normal_loads || !scene_.patches.empty();
     for (const Part& patch : scene_.patches) add_other("contacts of the patch \"" + patch.name + "\"");
     for (const Part& force : scene_.excitation) add_to_place(force, false);
     for (const scene::Response& response : scene_.responses)

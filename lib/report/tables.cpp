@@ -41,15 +41,18 @@ void write_parameters(Html& html, const Contents& contents) {
   const std::map<std::string, std::string> over = varied(scene);
   html.open("details", {{"open", ""}, {"class", "parameters"}}).element("summary", "Parameters");
   html.open("div", {{"class", "wide"}}).open("table", {{"class", "sortable"}});
-  write_titles(html, {"parameter", "value", "unit", "what it is", "varied"});
+  std::vector<std::string> titles{"parameter", "value", "unit", "what it is"};
+  if (!over.empty()) titles.emplace_back("varied");
+  write_titles(html, titles);
   html.open("tbody");
   for (std::size_t i = 0; i < std::min(names.size(), most_parameters); ++i) {
     const scene::Field& field = *scene::parameter_fields(scene, names[i]).front();
     const auto values = over.find(names[i]);
     html.open("tr").element("th", names[i], {{"scope", "row"}});
-    html.element("td", results::shortest(scene::value(scene, names[i])), {{"class", "number"}});
+    html.element("td", plain_number(scene::value(scene, names[i])), {{"class", "number"}});
     html.element("td", field.unit).element("td", field.help);
-    html.element("td", values == over.end() ? "" : values->second).close();
+    if (!over.empty()) html.element("td", values == over.end() ? "" : values->second);
+    html.close();
   }
   html.close().close().close();
   if (names.size() > most_parameters)

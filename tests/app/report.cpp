@@ -58,7 +58,8 @@ TEST_CASE("a report has the optimum with its range and its certificate in words"
   CHECK(contains(page, "class=\"band c0\""));
 }
 
-TEST_CASE("--report writes the report elsewhere, and of any study, and one of an earlier run goes") {
+TEST_CASE(
+    "the option --report writes the report elsewhere and of any study, and one of an earlier run goes") {
   const Workplace place;
   REQUIRE(run_at_order_1(place, {"--out", "o", "--quiet"}).exit_code == 0);
   REQUIRE(fs::exists(place / "o/report.html"));

@@ -69,7 +69,8 @@ class Pointer {
     const lines = pairs.map(([label, value]) => element("div", {}, label === "" ? value : label + ": " + value));
     const title = line.heading || line.label;
     this.values.replaceChildren(...(title === "" ? [] : [element("strong", {}, title)]), ...lines);
-    if (aloud) this.spoken.textContent = [title, ...pairs.map(([label, value]) => label + " " + value)].join(", ");
+    const said = [title, ...pairs.map(([label, value]) => (label + " " + value).trim())];
+    if (aloud) this.spoken.textContent = said.filter(text => text !== "").join(", ");
   }
 
   // After a zoom.
