@@ -13,10 +13,11 @@ std::string sentence(std::string text) {
   return text;
 }
 
-void write_one(Html& html, const StudyContents& study, const Doubt& doubt) {
+void write_one(Html& html, const StudyContents& study, const std::string& id, const Doubt& doubt) {
   html.open("li", {{"class", doubt.is_complete ? "doubt" : "stop"}});
   html.element("strong", doubt.is_complete ? "In doubt: " : "Not complete: ");
-  html.write("study \"" + study.name + "\", " + doubt.which + ". " + sentence(doubt.why));
+  html.write("study ").element("a", study.name, {{"href", "#" + id}});
+  html.write(", " + doubt.which + ". " + sentence(doubt.why));
   if (const std::string_view what = doubt.is_complete ? "" : advice(doubt.reason); !what.empty())
     html.raw(" ").element("span", "What to do: " + std::string(what), {{"class", "advice"}});
   html.close();
@@ -43,10 +44,11 @@ void write_doubts(Html& html, const Contents& contents) {
   }
   html.open("ul");
   for (const bool complete : {false, true}) {
-    for (const StudyContents& study : contents.studies) {
+    for (std::size_t i = 0; i < contents.studies.size(); ++i) {
+      const StudyContents& study = contents.studies[i];
       if (!complete && study.results == 0) write_not_started(html, study);
       for (const Doubt& doubt : study.doubts)
-        if (doubt.is_complete == complete) write_one(html, study, doubt);
+        if (doubt.is_complete == complete) write_one(html, study, study_id(i), doubt);
     }
   }
   for (const StudyContents& study : contents.studies)

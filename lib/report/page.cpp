@@ -67,10 +67,6 @@ void write_head(Html& html, const Contents& contents) {
   html.close();
 }
 
-std::string study_id(std::size_t study) {
-  return "s" + std::to_string(study);
-}
-
 void write_overview(Html& html, const Contents& contents) {
   html.open("nav", {{"aria-label", "Studies"}}).open("ul");
   html.open("li").element("a", "Scene", {{"href", "#scene"}}).close();
@@ -162,6 +158,10 @@ void write_footer(Html& html, const Contents& contents) {
 }
 
 }  // namespace
+
+std::string study_id(std::size_t study) {
+  return "s" + std::to_string(study);
+}
 
 void write_page(std::ostream& out, const Contents& contents) {
   Html html(out);

@@ -27,6 +27,9 @@ Asset script();
 Asset d3();
 Asset d3_licence();
 
+/// The id of the section of a study.
+std::string study_id(std::size_t study);
+
 /// What is incomplete or in doubt, and what to do about it.
 void write_doubts(Html& html, const Contents& contents);
 

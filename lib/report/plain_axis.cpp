@@ -72,7 +72,7 @@ std::vector<Tick> PlainAxis::ticks() const {
     const int first = static_cast<int>(std::floor(std::log10(lower))),
               last = static_cast<int>(std::ceil(std::log10(upper)));
     const int every = 1 + (last - first) / static_cast<int>(decade);
-    const bool is_short = upper < decade * decade * lower;
+    const bool is_short = upper < decade * decade * decade * lower;
     for (int exponent = first; exponent <= last; ++exponent)
       for (const double factor : {1.0, 2.0, 5.0}) {
         const double value = factor * std::pow(decade, exponent);

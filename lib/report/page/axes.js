@@ -40,7 +40,7 @@ function setTicks(axis, scale, isLogarithmic, count) {
   }
   const exponents = d3.range(Math.ceil(Math.log10(lower) - 1e-9), Math.floor(Math.log10(upper) + 1e-9) + 1);
   const every = Math.ceil(exponents.length / 10);
-  const factors = upper < 100 * lower ? [1, 2, 5] : [1];
+  const factors = upper < 1000 * lower ? [1, 2, 5] : [1];
   const values = [];
   for (const exponent of exponents.filter((_, i) => i % every === 0)) {
     for (const factor of factors) values.push(factor * Math.pow(10, exponent));

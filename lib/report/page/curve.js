@@ -122,10 +122,10 @@ class Curve {
       return;
     }
     if (description.x === 0) addBands(this.moved, data, this.x0);
-    data.lines.forEach((_, i) => this.places[i].forEach(part => {
+    this.outlines = data.lines.map((_, i) => this.places[i].map(part =>
       this.moved.append("path").datum(i).attr("d", outlineOf(part))
-        .attr("class", "line " + lineClass(i, data.lines.length) + (part.unstable ? " unstable" : ""));
-    }));
+        .attr("class", "line " + lineClass(i, data.lines.length) + (part.unstable ? " unstable" : "")).node()));
+    this.front = clipped.append("g").attr("class", "figure-front");
     this.addMarks(clipped.append("g"));
     this.cursor = clipped.append("g").attr("class", "cursor");
   }
@@ -179,6 +179,7 @@ class Curve {
     drawAxes(this.axes, this.x, this.y, this.columns);
     this.moved.attr("transform", `translate(${transform.x},${transform.y}) scale(${transform.k})`);
     if (description.areas.length > 0) return;
+    this.front.attr("transform", this.moved.attr("transform"));
     const isThere = line => isShown(data, line);
     this.moved.selectAll("path,rect").attr("display", line => (isThere(line) ? null : "none"));
     this.marks.attr("display", ({line}) => (isThere(line) ? null : "none"))

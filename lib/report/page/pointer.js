@@ -7,7 +7,8 @@ const mostValues = 14;    // that are shown at a point
 class Pointer {
   constructor(curve) {
     this.curve = curve;
-    this.at = null;  // {line, part, i}
+    this.at = null;          // {line, part, i}
+    this.emphasized = null;  // line
     this.values = element("div", {class: "values", hidden: ""});
     this.spoken = element("p", {class: "spoken", "aria-live": "polite"});
     curve.figure.append(this.values, this.spoken);
@@ -44,12 +45,19 @@ class Pointer {
 
   show(at, aloud) {
     this.at = at;
-    const {curve} = this;
-    curve.moved.classed("dim", at !== null && curve.data.lines.length > 1)
-      .selectAll(".line").classed("near", line => at !== null && line === at.line);
+    this.emphasize(at === null ? null : at.line);
     this.values.hidden = at === null;
     if (at !== null) this.write(aloud);
     this.refresh();
+  }
+
+  // Draws a line before the others, which fade as one; null: none.
+  emphasize(line) {
+    const {curve} = this;
+    if (line === this.emphasized) return;
+    this.emphasized = line;
+    curve.moved.classed("dim", line !== null && curve.data.lines.length > 1);
+    curve.front.node().replaceChildren(...(line === null ? [] : curve.outlines[line].map(each => each.cloneNode())));
   }
 
   // Pairs of a quantity and its value.
