@@ -38,7 +38,7 @@ function setTicks(axis, scale, isLogarithmic, count) {
   if (upper < 10 * lower) {
     return axis.tickValues(d3.ticks(lower, upper, count)).tickFormat(shortNumber);
   }
-  const exponents = d3.range(Math.ceil(Math.log10(lower) - 1e-9), Math.floor(Math.log10(upper) + 1e-9) + 1);
+  const exponents = d3.range(Math.floor(Math.log10(lower) + 1e-9), Math.floor(Math.log10(upper) + 1e-9) + 1);
   const every = Math.ceil(exponents.length / 10);
   const factors = upper < 1000 * lower ? [1, 2, 5] : [1];
   const values = [];
@@ -49,5 +49,5 @@ function setTicks(axis, scale, isLogarithmic, count) {
     const exponent = Math.floor(Math.log10(value) + 1e-9), factor = Math.round(value / Math.pow(10, exponent));
     return (factor === 1 ? "" : factor + "·") + powerOfTen(exponent);
   };
-  return axis.tickValues(values.filter(value => value <= upper)).tickFormat(format);
+  return axis.tickValues(values.filter(value => value >= lower && value <= upper)).tickFormat(format);
 }
