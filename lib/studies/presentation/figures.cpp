@@ -51,7 +51,7 @@ double percent(const observables::ResponsePoint& point, const Share& share) {
 using observables::ResponseBranch;
 using observables::ResponsePoint;
 
-// What a point reported on no axis.
+// What a point has that no axis shows.
 struct Reported {
   const char* label;
   double (*value)(const ResponsePoint& point);
@@ -62,7 +62,7 @@ double largest_multiplier(const ResponsePoint& point) {
   return known ? std::abs(point.stability->multipliers.front()) : observables::no_value;
 }
 
-// The quantities of a point, in their order: those of its kind, shares, reported.
+// The quantities of a point, in their order: those of its kind, shares, and what no axis shows.
 struct Quantities {
   std::vector<Share> shares;
   std::vector<Reported> reported;
@@ -105,7 +105,7 @@ Record record(const scene::Scene& scene, BranchKind kind, const Quantities& quan
     values.push_back(point.unbounded ? observables::no_value : point.amplitude);
   }
   for (const Share& share : quantities.shares) values.push_back(percent(point, share));
-  for (const Reported& report : quantities.reported) values.push_back(report.value(point));
+  for (const Reported& each : quantities.reported) values.push_back(each.value(point));
   return values;
 }
 
