@@ -10,6 +10,8 @@ namespace {
 constexpr double margin = 24, gap_width = 150, box_width = 96, row_height = 66, head_room = 58,
                  foot_room = 44;
 
+constexpr std::size_t box_room = 16;  // characters
+
 double left_of(int column) {
   return margin + gap_width + column * (gap_width + box_width);
 }
@@ -51,11 +53,11 @@ void write_column(Html& html, const Column& column, double x) {
                       {"height", pixels(bottom - head_room)},
                       {"rx", "4"}});
   double y = head_room + 22;
-  html.element("text", column.name,
+  html.element("text", shortened(column.name, box_room),
                {{"class", "name"}, {"x", pixels(middle)}, {"y", pixels(y)}, {"text-anchor", "middle"}});
   for (const std::string& mass : column.masses)
     html.element(
-        "text", mass,
+        "text", shortened(mass, box_room),
         {{"class", "value"}, {"x", pixels(middle)}, {"y", pixels(y += 16)}, {"text-anchor", "middle"}});
   if (!column.forces.empty()) {
     html.empty("path",
@@ -63,7 +65,7 @@ void write_column(Html& html, const Column& column, double x) {
                 {"d", "M" + pixels(middle - 30) + " " + pixels(head_room - 12) + "h60m-9 -5l9 5l-9 5"}});
     std::string all;
     for (const std::string& force : column.forces) all += (all.empty() ? "" : ", ") + force;
-    html.element("text", all,
+    html.element("text", shortened(all, 2 * box_room),
                  {{"x", pixels(middle)}, {"y", pixels(head_room - 24)}, {"text-anchor", "middle"}});
   }
   if (column.is_response)

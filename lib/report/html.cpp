@@ -82,6 +82,16 @@ std::string plain_number(double value) {
   return results::to_digits(value, digits);
 }
 
+std::string shortened(const std::string& name, std::size_t most) {
+  std::size_t count = 0, end = 0;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if ((static_cast<unsigned char>(name[i]) & 0xc0) == 0x80) continue;  // within a character
+    if (++count == most) end = i;
+    if (count > most) return name.substr(0, end) + "…";
+  }
+  return name;
+}
+
 std::string pixels(double value) {
   constexpr double tenth = 10;
   const double rounded = std::round(value * tenth) / tenth;

@@ -50,6 +50,9 @@ class Html {
 /// A number for people: "500000", "0.134", "1e-12".
 std::string plain_number(double value);
 
+/// A name where there is little room, with so many characters at most: "a long na…".
+std::string shortened(const std::string& name, std::size_t most);
+
 /// A length in a drawing, to a tenth of a pixel.
 std::string pixels(double value);
 

@@ -3,7 +3,8 @@
 namespace arcslip::report {
 namespace {
 
-constexpr double half_width = 30;  // of a symbol
+constexpr double half_width = 30;      // of a symbol
+constexpr std::size_t name_room = 20;  // characters
 
 /// A zigzag from x to x + width.
 std::string zigzag(double x, double y, double width) {
@@ -69,8 +70,9 @@ void write_link(Html& html, const Link& link, double left, double right, double 
     html.empty("path", {{"class", "load"},
                         {"d", "M" + pixels(x + 20) + " " + pixels(y - 20) + "V" + pixels(y - 8) +
                                   "m-3 -5l3 5l3 -5"}});
-  html.element("text", link.name, {{"x", pixels(x)}, {"y", pixels(y - 22)}, {"text-anchor", "middle"}});
-  html.element("text", link.value,
+  html.element("text", shortened(link.name, name_room),
+               {{"x", pixels(x)}, {"y", pixels(y - 22)}, {"text-anchor", "middle"}});
+  html.element("text", shortened(link.value, name_room),
                {{"class", "value"}, {"x", pixels(x)}, {"y", pixels(y + 26)}, {"text-anchor", "middle"}});
   const bool is_right = link.is_positive_right;
   html.element("text", "+",

@@ -34,7 +34,10 @@ function powerOfTen(exponent) {
 // Decades where there are several, else round numbers.
 function setTicks(axis, scale, isLogarithmic, count) {
   const [lower, upper] = scale.domain();
-  if (!isLogarithmic) return axis.ticks(count);
+  if (!isLogarithmic) {
+    const usual = scale.tickFormat(count);
+    return axis.ticks(count).tickFormat(value => (usual(value).length > 6 ? shortNumber(value) : usual(value)));
+  }
   if (upper < 10 * lower) {
     return axis.tickValues(d3.ticks(lower, upper, count)).tickFormat(shortNumber);
   }

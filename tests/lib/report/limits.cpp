@@ -146,3 +146,10 @@ TEST_CASE("a drawing has no room for many degrees of freedom, and says so") {
   report::write_drawing(html, scene);
   CHECK(contains(out.str(), "is not drawn: it has 40 degrees of freedom"));
 }
+
+TEST_CASE("a name that is too long for a drawing is cut between characters") {
+  CHECK(report::shortened("damper", 6) == "damper");
+  CHECK(report::shortened("dampers", 6) == "dampe…");
+  CHECK(report::shortened("Dämpfer", 7) == "Dämpfer");
+  CHECK(report::shortened("ßßßßßß", 4) == "ßßß…");
+}
