@@ -3,13 +3,30 @@
 #include <arcslip/formula/operations.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace arcslip::formula {
 namespace {
 
+constexpr std::size_t largest_block = 64;  // samples at once
+
 // A factor 0 stands for what a choice does not take: its derivative may be anything.
 double chained(double adjoint, double derivative) {
   return adjoint == 0 ? 0.0 : adjoint * derivative;
+}
+
+// f = x^n, in the order of whole_power().
+void set_powers(const double* x, int n, std::size_t count, double* __restrict f) {
+  double base[largest_block];
+  std::copy_n(x, count, base);
+  std::fill_n(f, count, 1.0);
+  for (int left = std::abs(n); left > 0; left /= 2) {
+    if (left % 2 == 1)
+      for (std::size_t s = 0; s < count; ++s) f[s] *= base[s];
+    if (left > 1)
+      for (std::size_t s = 0; s < count; ++s) base[s] *= base[s];
+  }
+  for (std::size_t s = 0; n < 0 && s < count; ++s) f[s] = 1 / f[s];
 }
 
 template <class Function>
@@ -46,14 +63,14 @@ void Evaluator::compute(std::span<const InputValues> inputs, std::size_t samples
                         std::span<double* const> values, std::span<const Derivative> derivatives) {
   const auto results = formula_.results();
   set_marks(inputs, derivatives);
-  const std::size_t wanted = std::min(samples, block);
+  const std::size_t wanted = std::min(samples, largest_block);
   if (stride_ < wanted) {
     stride_ = wanted;
     values_.assign(formula_.nodes().size() * stride_, 0);
     adjoints_.assign(values_.size(), 0);
   }
-  for (std::size_t from = 0; from < samples; from += block) {
-    const std::size_t count = std::min(block, samples - from);
+  for (std::size_t from = 0; from < samples; from += largest_block) {
+    const std::size_t count = std::min(largest_block, samples - from);
     compute_values(inputs, from, count);
     for (std::size_t k = 0; k < results.size(); ++k) {
       if (k < values.size() && values[k] != nullptr)
@@ -123,12 +140,7 @@ void Evaluator::set_values(const Node& node, std::size_t count, double* __restri
       for_each(count, [&](std::size_t s) { f[s] = a[s] / b[s]; });
       break;
     case Operation::whole_power:
-      if (node.value == 2)
-        for_each(count, [&](std::size_t s) { f[s] = a[s] * a[s]; });
-      else if (node.value == 3)
-        for_each(count, [&](std::size_t s) { f[s] = a[s] * (a[s] * a[s]); });
-      else
-        for_each(count, [&](std::size_t s) { f[s] = value(a[s], node.value, 0); });
+      set_powers(a, static_cast<int>(node.value), count, f);
       break;
     default:
       for_each(count, [&](std::size_t s) { f[s] = value(a[s], b[s], c[s]); });
@@ -173,14 +185,12 @@ void Evaluator::pass_on(const Node& node, int n, std::size_t count) {
       add(node.a, [&](std::size_t s) { return chained(g[s], b[s]); });
       add(node.b, [&](std::size_t s) { return chained(g[s], a[s]); });
       break;
-    case Operation::whole_power:
-      if (node.value == 2)
-        add(node.a, [&](std::size_t s) { return chained(g[s], 2 * a[s]); });
-      else if (node.value == 3)
-        add(node.a, [&](std::size_t s) { return chained(g[s], 3 * (a[s] * a[s])); });
-      else
-        add(node.a, [&](std::size_t s) { return chained(g[s], by.by_a(a[s], node.value, f[s])); });
+    case Operation::whole_power: {
+      double lower[largest_block];
+      set_powers(a, static_cast<int>(node.value) - 1, count, lower);
+      add(node.a, [&](std::size_t s) { return chained(node.value * g[s], lower[s]); });
       break;
+    }
     case Operation::choose:
       add(node.b, [&](std::size_t s) { return a[s] != 0 ? g[s] : 0.0; });
       add(node.c, [&](std::size_t s) { return a[s] != 0 ? 0.0 : g[s]; });

@@ -39,8 +39,6 @@ class Evaluator {
                std::span<const Derivative> derivatives = {});
 
  private:
-  static constexpr std::size_t block = 64;
-
   void set_marks(std::span<const InputValues> inputs, std::span<const Derivative> derivatives);
   void compute_values(std::span<const InputValues> inputs, std::size_t from, std::size_t count);
   static void set_values(const Node& node, std::size_t count, double* __restrict f, const double* a,

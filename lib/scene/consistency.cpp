@@ -143,7 +143,8 @@ void check_cyclic(const Scene& scene, Faults& faults) {
               ", must be another damping where masses, springs or matrices reach into the next sector: the "
               "modes of a ring are not those of one sector; give \"cyclic\" the key \"full\": true");
   for (std::size_t i = 0; i < scene.elements.size(); ++i)
-    if (scene.elements[i].type->depends_on_phase(scene.elements[i].options))
+    if (scene.elements[i].type != nullptr &&  // unknown: a fault already
+        scene.elements[i].type->depends_on_phase(scene.elements[i].options))
       faults.add(child("/elements", i),
                  "found a force that depends on the phase of the excitation, which is another one in each "
                  "sector; give "

@@ -75,12 +75,27 @@ std::string held_by_friction(const model::Model& model, const Vector& p) {
 
 }  // namespace
 
+namespace {
+
+// Replaces what is addressed to callers of the engine.
+void leave_out_options(std::string& message) {
+  const auto replace = [&](std::string_view from, std::string_view until, std::string_view by) {
+    const auto at = message.find(from),
+               end = at == std::string::npos ? at : message.find(until, at + from.size());
+    if (end != std::string::npos) message.replace(at, end + until.size() - at, by);
+  };
+  replace(continuation::needs_tangent, "", "");
+  replace("the step that `", "` allows", "the largest step");
+  replace("give it a smaller `scale`, or ", "", "give it ");
+}
+
+}  // namespace
+
 void add_scene_hint(const model::Model& model, const Vector& p, continuation::Branch& branch) {
   using continuation::StopReason;
   if (branch.stop.reason == StopReason::user || branch.stop.reason == StopReason::boundary) return;
   std::string& message = branch.stop.message;
-  const std::string_view advice = continuation::needs_tangent;  // to callers of the engine
-  if (const auto at = message.find(advice); at != std::string::npos) message.erase(at, advice.size());
+  leave_out_options(message);
   message += causes(model, p);
   message += held_by_friction(model, p);
 }

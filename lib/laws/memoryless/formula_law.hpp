@@ -87,6 +87,7 @@ class FormulaLaw final : public SampledLaw {
   /// The coefficients of f(q), v = 0, of a law along one direction, where it is a polynomial of q alone.
   std::optional<std::vector<double>> polynomial(Fields fields) const;
   bool uses_displacement(int direction) const;
+  int stiffness_field(Fields fields) const;
 
   std::string_view name_, help_;
   std::span<const scene::Field> fields_;

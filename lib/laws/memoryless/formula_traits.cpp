@@ -63,6 +63,12 @@ std::size_t power_of(const std::vector<double>& polynomial) {
   return power;
 }
 
+bool has_odd_power(const std::vector<double>& polynomial) {
+  for (std::size_t n = 1; n < polynomial.size(); n += 2)
+    if (polynomial[n] != 0) return true;
+  return false;
+}
+
 using Force = std::function<double(double q, double v)>;
 
 // Displacements or velocities of all sizes, to either side.
@@ -73,9 +79,10 @@ bool any_of_probes(Function function) {
   return false;
 }
 
+// To either side of rest, in opposite directions.
 bool holds_mean(const Force& force) {
   const double rest = force(0, 0);
-  return any_of_probes([&](double q) { return force(q, 0) != rest; });
+  return any_of_probes([&](double q) { return (force(q, 0) - rest) * (force(-q, 0) - rest) < 0; });
 }
 
 // The largest force of some displacements, since it may go to and fro.
@@ -121,6 +128,18 @@ bool FormulaLaw::uses_displacement(int direction) const {
   return formula_.uses(inputs_.displacement(direction));
 }
 
+// Of a force that is a field times the displacement.
+int FormulaLaw::stiffness_field(Fields fields) const {
+  const auto nodes = formula_.nodes();
+  if (inputs_.directions > 1 || nodes.size() != 3 || nodes[2].operation != formula::Operation::multiply)
+    return -1;
+  for (int k = 0; k < inputs_.fields; ++k)
+    if (formula_.uses(inputs_.field(k)) && formula_.uses(inputs_.displacement(0)) &&
+        fields[static_cast<std::size_t>(k)] > 0)
+      return k;
+  return -1;
+}
+
 Traits FormulaLaw::traits(Fields fields, int direction) const {
   std::vector<double> motion(static_cast<std::size_t>(inputs_.phase() + 1));
   double& q = motion[static_cast<std::size_t>(inputs_.displacement(direction))];
@@ -136,12 +155,13 @@ Traits FormulaLaw::traits(Fields fields, int direction) const {
   const bool linear = coefficients ? power < 2 : degree_ && degree_->motion < 2,
              elastic = uses_displacement(direction);
   if (coefficients) {
-    all.holds_mean = power > 0;
+    all.holds_mean = has_odd_power(*coefficients);
     all.far_power = static_cast<double>(power);
   } else if (elastic) {
     all.holds_mean = holds_mean(at);
     if (all.holds_mean) all.far_power = far_power(at);
   }
+  all.stiffness_field = stiffness_field(fields);
   if (elastic) all.stiffness = linear ? stiffness(fields, direction, 0) : infinity;
   if (rate_dependent_) all.far_work = far_work(at);
   const auto damping = [&](double at_v) {
@@ -155,6 +175,13 @@ Traits FormulaLaw::traits(Fields fields, int direction) const {
 }
 
 double FormulaLaw::stiffness(Fields fields, int direction, double reach) const {
+  if (const auto coefficients = polynomial(fields)) {
+    double sum = 0;
+    for (std::size_t n = 1; n < coefficients->size(); ++n)
+      if (const double c = (*coefficients)[n]; c != 0)
+        sum += static_cast<double>(n) * std::abs(c) * std::pow(reach, static_cast<double>(n) - 1);
+    return sum;
+  }
   std::vector<double> motion(static_cast<std::size_t>(inputs_.phase() + 1));
   double largest = 0;
   // The sum of a row, which bounds the eigenvalues of a symmetric one.

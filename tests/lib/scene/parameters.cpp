@@ -148,7 +148,8 @@ TEST_CASE("each type of element is known by its name and describes its fields") 
   CHECK(names == std::vector<std::string>{"jenkins", "contact_2d", "contact_3d", "iwan", "bouc_wen",
                                           "tanh_friction", "coulomb", "quadratic_damper", "van_der_pol",
                                           "cubic_spring", "polynomial_spring", "polynomial_coupling",
-                                          "gap_spring", "bilinear_spring", "piecewise_linear_spring"});
+                                          "gap_spring", "bilinear_spring", "piecewise_linear_spring",
+                                          "formula"});
 }
 
 TEST_CASE("combinations of for_each are made one at a time, the last list fastest, however many there are") {

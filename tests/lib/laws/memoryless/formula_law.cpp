@@ -234,6 +234,13 @@ TEST_CASE("what follows from a formula: symmetry, growth, stiffness, and a singl
   CHECK(std::isinf(traits("q^3").stiffness));
   CHECK(traits("q^3").far_power == 3);
   CHECK(traits("q^3").several_responses);
+  CHECK_FALSE(traits("q^2").holds_mean);
+  CHECK(traits("q^2").several_responses);
+  CHECK(traits("q^2 + q").holds_mean);
+  CHECK_FALSE(traits("cosh(q)").holds_mean);
+  CHECK(traits("sinh(q)").holds_mean);
+  CHECK(Law1({"k*q"}, {"k"})->traits(std::array{2.0}, 0).stiffness_field == 0);
+  CHECK(Law1({"k*q + q"}, {"k"})->traits(std::array{2.0}, 0).stiffness_field == -1);
   CHECK(traits("0*q^3").stiffness == 0);
   CHECK_FALSE(traits("0*q^3").holds_mean);
   CHECK_FALSE(traits("0*q^3 + 2*q").several_responses);
@@ -267,6 +274,15 @@ TEST_CASE("the energy stored is the integral of the force") {
   CHECK(stored("q^3 + v^3", 2) == 4);
   CHECK(stored("v^3", 2) == 0);
   CHECK(stored("q*cos(phase)", 2) == 0);
+}
+
+TEST_CASE("a step dissipates the work of what is not stored") {
+  const Law1 law({"k*q^3 + c*v"}, {"k", "c"});
+  const std::vector<double> fields = {2, 0.7};
+  const auto one = [](double x) { return VectorXd::Constant(1, x).eval(); };
+  const every_law::State from(*law, fields, one(0.3), VectorXd(), one(0.5));
+  const auto end = from.step(one(0.2), one(0.4));
+  CHECK(end.dissipated == Approx(0.5 * 0.7 * (0.5 + 0.4) * 0.2).epsilon(1e-13));
 }
 
 TEST_CASE("a formula that is linear is integrated exactly in time") {
