@@ -30,6 +30,19 @@ std::map<std::string, std::string> varied(const scene::Scene& scene) {
               results::shortest(*lowest) + " to " + results::shortest(*highest) + " in the study \"" +
               study.name + "\"";
     }
+  for (const scene::Study& study : scene.studies)
+    for (const auto& [name, distribution] : study.samples.parameters) {
+      const sampling::DistributionDescription& of = sampling::description(distribution.type);
+      std::string& text = all[name];
+      text += (text.empty() ? "" : "; ") + std::to_string(study.samples.count) + " samples, " +
+              std::string(of.name);
+      for (std::size_t i = 0; i < of.values.size(); ++i)
+        text.append(i == 0 ? " of " : ", ")
+            .append(of.values[i])
+            .append(" ")
+            .append(results::shortest(distribution.values[i]));
+      text += ", in the study \"" + study.name + "\"";
+    }
   return all;
 }
 

@@ -105,6 +105,8 @@ void set(Scene& scene, std::string_view parameter, double value) {
 void drop(Study& study, std::string_view parameter) {
   std::erase_if(study.for_each, [&](const auto& list) { return list.first == parameter; });
   study.in_rows = study.in_rows && !study.for_each.empty();
+  std::erase_if(study.samples.parameters, [&](const auto& sampled) { return sampled.first == parameter; });
+  if (study.samples.parameters.empty()) study.samples = {};
   study.type->settings().drop(parameter, study.settings);
 }
 

@@ -3,6 +3,7 @@
 
 #include <arcslip/control/error.hpp>
 #include <arcslip/control/run_control.hpp>
+#include <arcslip/sampling/sampler.hpp>
 #include <arcslip/scene/field.hpp>
 #include <arcslip/scene/matrices.hpp>
 #include <arcslip/scene/named_file.hpp>
@@ -86,7 +87,8 @@ struct Study {
   const StudyType* type = nullptr;
   Settings settings{};
   ValueLists for_each{};
-  bool in_rows = false;  // for_each: the k-th values of all lists together, instead of every combination
+  bool in_rows = false;      // for_each: the k-th values of all lists together, instead of every combination
+  sampling::Plan samples{};  // for_each by distributions, in place of lists
   friend bool operator==(const Study&, const Study&) = default;
 };
 

@@ -8,7 +8,7 @@ results::Schema StudyKind::schema(const scene::Scene& scene, const scene::Study&
                                   const RunOptions& options) const {
   results::Schema schema = compute_(scene, study, options)->schema();
   NamedValues set;  // by for_each
-  for (const auto& [parameter, values] : study.for_each) set.emplace_back(parameter, 0);
+  for (const std::string& parameter : scene::varied_parameters(study)) set.emplace_back(parameter, 0);
   add_columns(scene, set, schema.set);
   return schema;
 }

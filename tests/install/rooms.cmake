@@ -15,10 +15,11 @@ set(continuation/diagrams ${continuation/tracing} continuation/diagrams)
 set(continuation ${continuation/diagrams})
 
 set(results results)
-set(scene control results scene)
-set(scene/keys control results scene scene/keys)
+set(sampling sampling)
+set(scene control results sampling scene)
+set(scene/keys control results sampling scene scene/keys)
 set(scene/files control results scene scene/keys scene/files)
-set(scene/format control scene scene/keys scene/files scene/format)
+set(scene/format control sampling scene scene/keys scene/files scene/format)
 set(fourier fourier)
 set(formula control formula)
 set(laws results scene scene/keys fourier laws)
@@ -47,8 +48,8 @@ set(studies/presentation control results scene laws model observables analyses/m
 set(studies control results scene scene/keys laws/memoryless laws/hysteresis laws/contact stability observables
     analyses/responses analyses/curves analyses/modes_and_time studies/presentation studies)
 set(output control results output)
-set(report results scene report)
-set(structures ${continuation} control results scene scene/keys scene/files scene/format fourier formula laws laws/memoryless
+set(report results sampling scene report)
+set(structures ${continuation} control results sampling scene scene/keys scene/files scene/format fourier formula laws laws/memoryless
     laws/hysteresis laws/contact structure model hbm/linear hbm time/equation time/event_driven time/newmark
     time/periodic stability observables analyses/branches analyses/responses analyses/curves analyses/modes_and_time
     studies/presentation studies output report)

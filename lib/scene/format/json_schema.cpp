@@ -326,6 +326,31 @@ Node range() {
                       {"from", "to", "count"}));
 }
 
+/// Samples of parameters with distributions.
+Node samples() {
+  Node::List one_of;
+  for (const sampling::DistributionDescription& each : sampling::distribution_types()) {
+    Node::Object values =
+        std::get<Object>(list_of(of_type("number"), static_cast<int>(each.values.size())).value);
+    values.push_back({"maxItems", node(static_cast<int>(each.values.size()))});
+    std::string help;
+    for (const std::string_view value : each.values) help.append(help.empty() ? "" : ", ").append(value);
+    values.push_back({"description", node(help)});
+    one_of.push_back(
+        of(object_of({{std::string(each.name), of(std::move(values))}}, {std::string(each.name)})));
+  }
+  const auto whole = [](int lower, int upper) {
+    return Object{{"type", node("integer")}, {"minimum", node(lower)}, {"maximum", node(upper)}};
+  };
+  Object seed = whole(0, std::numeric_limits<int>::max());
+  seed.push_back({"default", node(static_cast<int>(sampling::Plan{}.seed))});
+  return of(object_of({{"distributions", map_of(of({{"oneOf", {std::move(one_of)}}}))},
+                       {"count", of(whole(1, sampling::largest_sample_count))},
+                       {"seed", of(std::move(seed))},
+                       {"design", one_of_words(sampling::designs(), sampling::Plan{}.design)}},
+                      {"distributions", "count"}));
+}
+
 Node study_of(const StudyType& type) {
   Object properties{
       {"name", of({{"type", node("string")}, {"minLength", node(1)}, {"maxLength", node(100)}})},
@@ -344,7 +369,8 @@ Node study_of(const StudyType& type) {
   properties.push_back(
       {"for_each",
        of({{"oneOf",
-            {Node::List{map_of(of({{"oneOf", {Node::List{list_of(of_type("number"), 1), range()}}}})),
+            {Node::List{samples(),
+                        map_of(of({{"oneOf", {Node::List{list_of(of_type("number"), 1), range()}}}})),
                         list_of(map_of(of_type("number")), 1)}}}})});
   Object study = object_of(std::move(properties), required);
   if (!needs.empty()) study.push_back({"dependentRequired", of(std::move(needs))});

@@ -176,7 +176,24 @@ Node harmonics_node(const Harmonics& harmonics) {
   return {std::move(object)};
 }
 
+Node samples_node(const sampling::Plan& plan) {
+  Node::Object distributions;
+  for (const auto& [parameter, distribution] : plan.parameters) {
+    const sampling::DistributionDescription& of = sampling::description(distribution.type);
+    const std::vector<double> values(distribution.values.begin(),
+                                     distribution.values.begin() + static_cast<long>(of.values.size()));
+    distributions.push_back({parameter, {Node::Object{{std::string(of.name), node(values)}}}});
+  }
+  const auto design = std::find_if(sampling::designs().begin(), sampling::designs().end(),
+                                   [&](const auto& each) { return each.value == plan.design; });
+  return {Node::Object{{"distributions", {std::move(distributions)}},
+                       {"count", node(static_cast<double>(plan.count))},
+                       {"seed", node(static_cast<double>(plan.seed))},
+                       {"design", node(design->text)}}};
+}
+
 Node for_each_node(const Study& study) {
+  if (study.samples.count > 0) return samples_node(study.samples);
   Node::Object lists;
   Node::List rows;
   for (const auto& [parameter, values] : study.for_each) lists.push_back({parameter, node(values)});

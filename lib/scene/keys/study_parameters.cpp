@@ -241,6 +241,10 @@ class ParameterRows {
 
 void read_for_each(const Location& place, const Parameters& all, const std::vector<ParameterUse>& taken,
                    Study& study, Faults& faults) {
+  if (are_samples(place, all)) {
+    study.samples = read_samples(place, all, taken, faults);
+    return;
+  }
   const Node::List* list = place.node != nullptr ? place.node->get<Node::List>() : nullptr;
   if (list == nullptr) {
     study.for_each = read_value_lists(place, all, taken, faults);

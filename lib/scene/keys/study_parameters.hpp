@@ -41,7 +41,16 @@ std::pair<double, double> read_pair(const Location& place, const std::string& wa
 ValueLists read_value_lists(const Location& place, const Parameters& all,
                             const std::vector<ParameterUse>& taken, Faults& faults);
 
-/// "for_each": such lists, or a list of rows, {"k.value": 1, "m.value": 2}, all with the same parameters.
+/// Whether "for_each" is a plan of samples, by its key "distributions".
+bool are_samples(const Location& place, const Parameters& all);
+
+/// {"distributions": {"k.value": {"normal": [30, 3]}}, "count": 2000, "seed": 1, "design": "sobol"}, with
+/// distributions within the bounds of the parameters. No parameters after a fault.
+sampling::Plan read_samples(const Location& place, const Parameters& all,
+                            const std::vector<ParameterUse>& taken, Faults& faults);
+
+/// "for_each": such lists, a list of rows, {"k.value": 1, "m.value": 2}, all with the same parameters, or
+/// samples.
 void read_for_each(const Location& place, const Parameters& all, const std::vector<ParameterUse>& taken,
                    Study& study, Faults& faults);
 

@@ -134,6 +134,66 @@ void add_studies(std::vector<BadScene>& rows) {
                   "found 1e999 (a number that is too large), must be a finite number"});
 }
 
+void add_samples(std::vector<BadScene>& rows) {
+  const std::string place = "/studies/0/for_each";
+  const auto add = [&](const std::string& name, const std::string& text, const std::string& where,
+                       const std::string& message) {
+    rows.push_back({name, good_scene_with("{\"d.normal_load\": [1, 2]}", text), place + where, message});
+  };
+  const auto add_one = [&](const std::string& name, const std::string& distribution, const std::string& where,
+                           const std::string& message) {
+    add(name, "{\"distributions\": {\"m.value\": " + distribution + "}, \"count\": 10}",
+        "/distributions/m.value" + where, message);
+  };
+  const std::string good = "{\"distributions\": {\"m.value\": {\"uniform\": [1, 2]}}, \"count\": ";
+  add("distributions without a number of samples",
+      "{\"distributions\": {\"m.value\": {\"uniform\": [1, 2]}}}", "/count",
+      "found no key \"count\", which is required: must be an integer from 1 to 1000000000");
+  add("no samples", good + "0}", "/count", "found 0, must be an integer from 1 to 1000000000");
+  add("seed below zero", good + "5, \"seed\": -1}", "/seed",
+      "found -1, must be an integer from 0 to 2147483647");
+  add("unknown design of samples", good + "5, \"design\": \"sobbol\"}", "/design",
+      "found \"sobbol\", must be one of \"random\", \"latin_hypercube\", \"sobol\"; did you mean \"sobol\"?");
+  add("unknown key next to distributions", good + "5, \"sed\": 1}", "/sed", "did you mean \"seed\"?");
+  add("distributions that are no object", "{\"distributions\": 1, \"count\": 5}", "/distributions",
+      "found 1 (a number), must be an object");
+  add("distributions of no parameter", "{\"distributions\": {}, \"count\": 5}", "/distributions",
+      "found no parameter, must be an object with a distribution of each");
+  add("distribution of an unknown parameter",
+      "{\"distributions\": {\"m.valu\": {\"uniform\": [1, 2]}}, \"count\": 5}", "/distributions/m.valu",
+      "did you mean \"m.value\"?");
+  add_one("distribution that is no object", "[1, 2]", "",
+          "found a list, must be an object with one of \"normal\"");
+  add_one("two distributions of a parameter", "{\"uniform\": [1, 2], \"normal\": [1, 2]}", "",
+          "found an object of 2 keys, must be an object with one of \"normal\"");
+  add_one("unknown distribution", "{\"unifrm\": [1, 2]}", "/unifrm",
+          "found the unknown distribution \"unifrm\", must be one of \"normal\", \"uniform\", \"lognormal\", "
+          "\"truncated_normal\"; did you mean \"uniform\"?");
+  add_one("distribution with too few numbers", "{\"normal\": [1]}", "/normal",
+          "found a list of 1, must be a list of 2 numbers: mean, standard deviation");
+  add_one("distribution of texts", "{\"uniform\": [1, \"2\"]}", "/uniform/1",
+          "found \"2\" (a string), must be");
+  add_one("standard deviation of zero", "{\"normal\": [1, 0]}", "/normal/1",
+          "found 0, must be above 0: it is the standard deviation");
+  add_one("lognormal distribution about zero", "{\"lognormal\": [0, 1]}", "/lognormal/0",
+          "found 0, must be above 0: it is the mean of a lognormal distribution");
+  add_one("ends in the wrong order", "{\"uniform\": [2, 1]}", "/uniform/1",
+          "found 1, must be above the lower end, which is 2");
+  add_one("ends of a truncated distribution in the wrong order", "{\"truncated_normal\": [1, 1, 2, 2]}",
+          "/truncated_normal/3", "found 2, must be above the lower end, which is 2");
+  add_one("ends far from the mean", "{\"truncated_normal\": [1, 1e-3, 50, 51]}", "/truncated_normal",
+          "found no probability between the ends, must be ends nearer to the mean");
+  add_one("uniform distribution beyond the bounds", "{\"uniform\": [-1, 2]}", "/uniform/0",
+          "found -1, must be at least 0 kg");
+  add_one("truncated distribution beyond the bounds", "{\"truncated_normal\": [1, 1, -1, 2]}",
+          "/truncated_normal/2", "found -1, must be at least 0 kg");
+  add_one("mean beyond the bounds", "{\"normal\": [-1, 1]}", "/normal/0", "found -1, must be at least 0 kg");
+  add_one(
+      "normal distribution with samples beyond the bounds", "{\"normal\": [1, 0.5]}", "/normal",
+      "found samples beyond the bounds of the parameter with a probability of 0.023, must be at least 0 kg: "
+      "use \"truncated_normal\", with a lower and an upper end");
+}
+
 void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
   const auto add = [&](const std::string& name, const std::string& study, const std::string& place,
                        const std::string& message) {
@@ -281,6 +341,7 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
 
 void add_bad_studies(std::vector<BadScene>& rows) {
   add_studies(rows);
+  add_samples(rows);
   add_studies_over_a_parameter(rows);
 }
 
