@@ -1,5 +1,6 @@
 #include "options.hpp"
 
+#include "ensembles.hpp"
 #include "key_options.hpp"
 #include "option_values.hpp"
 
@@ -25,7 +26,7 @@ constexpr int most_threads = 1024;
 
 struct Verb {
   std::string name, help;
-  const scene::StudyType* type = nullptr;  // none: run, reduce, check
+  const scene::StudyType* type = nullptr;  // none: run, ensemble, merge, reduce, check
   std::vector<KeyOption> keys{};
 };
 
@@ -49,6 +50,8 @@ std::vector<Verb> verbs_of(const scene::Catalogue& catalogue) {
     key.help += " of frequency responses";
     verbs.front().keys.push_back({key});
   }
+  verbs.push_back({ensemble_verb, "compute many samples of a study into one file, and go on where it ended"});
+  verbs.push_back({merge_verb, "join the files of parts of an ensemble"});
   verbs.push_back({reduce_verb, "write the reduced structure of the scene, and the scene with it"});
   verbs.push_back({check_verb, "validate the scene and print it with every default"});
   return verbs;
@@ -95,6 +98,14 @@ void add_key_option(CLI::App& verb, KeyOption& of) {
     option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
 }
 
+void add_running_options(CLI::App& verb, CommandOptions& options, Texts& texts) {
+  verb.add_option("--threads", texts.threads,
+                  "threads for combinations, load cases of an optimum, and elements of a response (default: "
+                  "as many as there are processors)")
+      ->type_name("N");
+  verb.add_flag("--quiet", options.quiet, "print only errors, no progress and no notes");
+}
+
 void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts& texts) {
   for (KeyOption& option : of.keys) add_key_option(verb, option);
   verb.add_option("--out", options.out,
@@ -119,17 +130,17 @@ void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts&
                   "maximum number of combinations of the values in for_each (default: " +
                       std::to_string(scene::usual_combinations) + ")")
       ->type_name("N");
-  verb.add_option("--threads", texts.threads,
-                  "threads for combinations, load cases of an optimum, and elements of a response (default: "
-                  "as many as there are processors)")
-      ->type_name("N");
-  verb.add_flag("--quiet", options.quiet, "print only errors, no progress and no notes");
+  add_running_options(verb, options, texts);
 }
 
 void add_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts& texts) {
   if (of.type != nullptr) of.keys = options_of(of.type->keys());
+  if (of.name == merge_verb) return add_merge_options(verb, options);
   add_scene_options(verb, options, texts);
-  if (of.name == reduce_verb) {
+  if (of.name == ensemble_verb) {
+    add_ensemble_options(verb, options);
+    add_running_options(verb, options, texts);
+  } else if (of.name == reduce_verb) {
     verb.add_option("--out", options.out,
                     "folder for the matrices and the scene (default: out/<name of the scene file>_reduced)")
         ->type_name("DIR");

@@ -30,10 +30,16 @@ struct GivenKey {
   std::variant<scene::file::Node, std::vector<RangeOption>> value;
 };
 
+/// Of the verbs "ensemble" and "merge".
+struct EnsembleOptions {
+  std::string study, keep, part;   // "" for none
+  std::vector<std::string> parts;  // paths
+};
+
 struct CommandOptions {
-  std::string verb;                        // "run", "reduce", "check", or the verb of a kind of study
-  const scene::StudyType* type = nullptr;  // of the verb
-  std::string scene;                       // path
+  std::string verb;  // "run", "ensemble", "merge", "reduce", "check", or the verb of a kind of study
+  const scene::StudyType* type = nullptr;           // of the verb
+  std::string scene;                                // path
   std::vector<std::pair<std::string, double>> set;  // parameter and value
   std::optional<int> harmonics;
   std::optional<double> accuracy;
@@ -42,6 +48,7 @@ struct CommandOptions {
   std::string report;               // path; "": run writes it to its folder, other verbs none
   std::optional<int> combinations;  // of for_each, maximum
   std::optional<int> threads;       // combinations computed at the same time
+  EnsembleOptions ensemble;
   bool coefficients = false;
   bool quiet = false;
 };

@@ -18,6 +18,8 @@ std::size_t terminal_width() {
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
 }
 
+}  // namespace
+
 std::string time_left(double share, double seconds) {
   if (!(share > 0.01) || seconds < 0.5) return "";
   const double left = seconds * (1 - share) / share;
@@ -30,8 +32,6 @@ std::string time_left(double share, double seconds) {
     std::snprintf(text.data(), text.size(), "  %.1f h left", left / 3600);
   return text.data();
 }
-
-}  // namespace
 
 std::string progress_text(const control::Progress& progress, const std::string& unit, double seconds) {
   const int branches = std::max(progress.branches, 1);
@@ -64,11 +64,15 @@ ProgressLine::ProgressLine(bool quiet, std::string unit)
 }
 
 void ProgressLine::show(const control::Progress& progress) {
+  show([&](double seconds) { return progress_text(progress, unit_, seconds); });
+}
+
+void ProgressLine::show(const std::function<std::string(double)>& text) {
   if (!shown_) return;
   const auto now = Clock::now();
   if (now < next_) return;
   next_ = now + (terminal_ ? rewritten_every : reported_every);
-  std::string line = progress_text(progress, unit_, std::chrono::duration<double>(now - begin_).count());
+  std::string line = text(std::chrono::duration<double>(now - begin_).count());
   if (!terminal_) {
     tell(line);
     return;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string>
 
 namespace arcslip::app {
@@ -19,6 +20,8 @@ class ProgressLine {
   ~ProgressLine() { clear(); }
 
   void show(const control::Progress& progress);
+  /// Shows text(seconds since the beginning), which is not called where nothing is shown.
+  void show(const std::function<std::string(double)>& text);
   void clear();
 
  private:
@@ -30,6 +33,9 @@ class ProgressLine {
   Clock::time_point begin_ = Clock::now();
   Clock::time_point next_;
 };
+
+/// "  4 s left"; "" where too little is done. share: from 0 to 1, of what takes that long in all.
+std::string time_left(double share, double seconds);
 
 /// "branch 3/12  152 points  19.84 Hz  step 0.012 Hz  41 %  4 s left"; for a search, whose remaining time is
 /// unknown, "search 1/4  the certificate  37 evaluations  20.1 Hz  best 0.0123 m  12 s". seconds: elapsed

@@ -1,5 +1,6 @@
 #include "verbs.hpp"
 
+#include "ensembles.hpp"
 #include "interrupt.hpp"
 #include "message.hpp"
 #include "progress.hpp"
@@ -490,11 +491,13 @@ ExitCode run_scene(scene::Scene scene, CommandOptions options) {
 }  // namespace
 
 ExitCode execute(const CommandOptions& options, const scene::Catalogue& catalogue) {
+  if (options.verb == merge_verb) return merge_ensemble(options);
   scene::Scene scene = resolve(options, catalogue);
   for (const std::string& doubt : scene::manifest_doubts(scene, options.scene).changed) tell(doubt);
   if (const std::string done = observables::prepare(scene, by_signal()); !done.empty() && !options.quiet)
     tell(done);
   if (options.verb == "run") return run_scene(std::move(scene), options);
+  if (options.verb == ensemble_verb) return compute_ensemble(scene, options);
   if (options.verb == "reduce") return reduce(scene, options);
   if (options.type == nullptr) return check(scene, options);
   const scene::Study study = study_of_verb(scene, options);

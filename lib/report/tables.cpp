@@ -2,6 +2,7 @@
 
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/text.hpp>
+#include <arcslip/sampling/distribution.hpp>
 #include <arcslip/scene/combinations.hpp>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <arcslip/sampling/sampler.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <cstddef>

@@ -46,6 +46,14 @@ bool has_harmonics(const Range& range) {
   return true;
 }
 
+/// Returns a range of frequencies with long steps, where only events are asked for.
+template <class Range>
+Range in_steps(Range range, bool events_only) {
+  if constexpr (requires { range.steps; })
+    if (events_only) range.steps = observables::Steps::events;
+  return range;
+}
+
 /// follow(scene, range, control) returns the branches of one combination, over the parameter range.over, or
 /// over the frequency if the Range has none. Responses get more harmonics only where they need them.
 template <auto follow, BranchKind drawn, class Range>
@@ -55,7 +63,8 @@ std::unique_ptr<Computation> computed_branches(const scene::Scene& scene, const 
   using Branches = std::span<const ResponseBranch>;
   auto of = std::make_unique<ComputationOf<ResponseBranch>>(
       branches(scene, asked_for(drawn, scene, range), options),
-      [&range](const Case& at, const control::Control& control) { return follow(at.scene, range, control); },
+      [range = in_steps(range, options.events_only && scene.harmonics.accuracy == 0)](
+          const Case& at, const control::Control& control) { return follow(at.scene, range, control); },
       [&scene](Branches branches) { return std::vector{figures_of(scene, drawn, branches)}; });
   if (has_harmonics(range))
     of->truncation_of_items = [](Branches branches) {

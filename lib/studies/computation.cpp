@@ -98,18 +98,41 @@ using Compute = std::function<Computed(const Case& at, const control::Control& c
 /// Returns false where a result says that it was stopped.
 using Take = std::function<bool(Computed computed)>;
 
+/// Computes one combination with its values set.
+Computed compute_at(const scene::Scene& scene, const scene::Setting& set, int threads, bool alone,
+                    const Compute& compute_one, const control::Control& control) {
+  scene::Scene with = scene;
+  with.threads.count = threads;
+  for (const auto& [name, value] : set) scene::set(with, name, value);
+  Computed computed = compute_one({with, alone}, control);
+  for (std::size_t i = 0; i < computed.items->size(); ++i) computed.items->put_set(i, set);
+  return computed;
+}
+
+/// Returns the results of the items of one combination. with_order: the scene, whose harmonics become those
+/// of the items.
+std::vector<results::Result> results_of(const Computation& computation, Computed& computed,
+                                        const scene::Study& study, scene::Scene& with_order) {
+  with_order.harmonics = computed.harmonics;
+  const std::string beyond = scene::beyond_reduction(with_order, study);
+  std::vector<results::Result> all;
+  for (std::size_t i = 0; i < computed.items->size(); ++i) {
+    computed.items->put_study(i, study);
+    results::Result& result = all.emplace_back(computation.result(*computed.items, i));
+    if (computed.selection) computed.selection->tell(result.end);
+    if (!beyond.empty()) result.end.doubt += (result.end.doubt.empty() ? "" : "; ") + beyond;
+  }
+  return all;
+}
+
 void for_each_combination(const scene::Scene& scene, const scene::Combinations& all, int threads,
                           const Compute& compute_one, const control::Control& control, const Take& take) {
   FirstOfSeveral first(all.size(), control);
   const control::Control of_all = control.child();
   const auto make = [&](std::size_t k) {
-    scene::Setting set = all[k];
-    scene::Scene with = scene;
-    with.threads.count = control::threads_for_each(threads, all.size());
-    for (const auto& [name, value] : set) scene::set(with, name, value);
     const auto report = [&, k](const control::Progress& now) { first.report(k, now); };
-    Computed computed = compute_one({with, all.size() == 1}, of_all.child({.report = report}));
-    for (std::size_t i = 0; i < computed.items->size(); ++i) computed.items->put_set(i, set);
+    Computed computed = compute_at(scene, all[k], control::threads_for_each(threads, all.size()),
+                                   all.size() == 1, compute_one, of_all.child({.report = report}));
     first.end(k);
     return computed;
   };
@@ -142,6 +165,17 @@ std::vector<std::unique_ptr<Items>> items_of_each(
   return items;
 }
 
+std::vector<results::Result> results_at(const scene::Scene& scene, const scene::Study& study,
+                                        const Computation& computation, const scene::Setting& set,
+                                        const control::Control& control) {
+  Computed computed = compute_at(
+      scene, set, 1, false,
+      [&](const Case& at, const control::Control& of_case) { return compute(computation, at, of_case); },
+      control);
+  scene::Scene with_order = scene;
+  return results_of(computation, computed, study, with_order);
+}
+
 std::vector<results::FigureData> run_computation(const scene::Scene& scene, const scene::Study& study,
                                                  const RunOptions& options, std::size_t schema,
                                                  results::Sink& sink, const Computation& computation) {
@@ -149,14 +183,8 @@ std::vector<results::FigureData> run_computation(const scene::Scene& scene, cons
   int taken = 0;
   scene::Scene with_order = scene;
   const auto take = [&](Computed computed) {
-    with_order.harmonics = computed.harmonics;
-    const std::string beyond = scene::beyond_reduction(with_order, study);
     bool whole = true;
-    for (std::size_t i = 0; i < computed.items->size(); ++i) {
-      computed.items->put_study(i, study);
-      results::Result result = computation.result(*computed.items, i);
-      if (computed.selection) computed.selection->tell(result.end);
-      if (!beyond.empty()) result.end.doubt += (result.end.doubt.empty() ? "" : "; ") + beyond;
+    for (const results::Result& result : results_of(computation, computed, study, with_order)) {
       whole = whole && result.end.status != results::Status::stopped;
       results::hand(result, schema, sink);
     }

@@ -68,6 +68,12 @@ std::vector<std::unique_ptr<Items>> items_of_each(
     const std::function<std::unique_ptr<Items>(const Case&, const control::Control&)>& compute,
     const control::Control& control);
 
+/// The results of one combination, in the order of its items, in one thread. set: its values. Several threads
+/// may share the computation. Throws scene::ParameterError for a value out of bounds.
+std::vector<results::Result> results_at(const scene::Scene& scene, const scene::Study& study,
+                                        const Computation& computation, const scene::Setting& set,
+                                        const control::Control& control);
+
 /// StudyKind::run(): up to options.threads combinations are computed at the same time, with the threads that
 /// are left for their elements, and results are handed to the sink in the order of the combinations, by this
 /// thread. After the end of options.control no further combination is started, unless all that were are

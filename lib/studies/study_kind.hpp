@@ -144,6 +144,11 @@ class StudyKind : public scene::StudyType {
   /// The structure of all results of the study.
   results::Schema schema(const scene::Scene& scene, const scene::Study& study,
                          const RunOptions& options) const;
+  /// What the study computes, of one combination at a time. Refers to the scene and the study.
+  std::unique_ptr<Computation> computation(const scene::Scene& scene, const scene::Study& study,
+                                           const RunOptions& options) const {
+    return compute_(scene, study, options);
+  }
   /// Passes the results to the sink as they are computed, with the index of their schema in the sink: one
   /// after the other for each combination of the study's for_each lists, each independent of the others.
   /// Returns the requested figures, each with a unique name; a figure may be empty.

@@ -58,7 +58,7 @@ std::vector<BadInput> make() {
       line("an unknown verb", {"fry", "scene.json"},
            "unknown verb \"fry\", must be run, frf, trace, peaks, folds, bifurcations, time, point, modes, "
            "sweep, accuracy, "
-           "optimize, reduce, check "
+           "optimize, ensemble, merge, reduce, check "
            "or "
            "schema"),
       bare("a structure that is not reduced", {"reduce", "bare.json"},

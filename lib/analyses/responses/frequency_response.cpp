@@ -37,7 +37,7 @@ double seconds_since(std::chrono::steady_clock::time_point began) {
 class Sweep {
  public:
   Sweep(const scene::Scene& scene, const FrequencyRange& range, const control::Control& control)
-      : Sweep(model_of(scene, control), scene.frequency_unit, range, Steps::curve, control) {}
+      : Sweep(model_of(scene, control), scene.frequency_unit, range, range.steps, control) {}
 
   Sweep(std::shared_ptr<const model::Model> model, scene::FrequencyUnit unit, const FrequencyRange& range,
         Steps steps, const control::Control& control)
@@ -192,9 +192,8 @@ class Sweep {
     const auto began = std::chrono::steady_clock::now();
     Course course = course_from(end);
     const bool is_up = end == lower_;
-    const auto traced =
-        frequency_branch_part(problem, {lower_, upper_}, end, is_up ? upper_ : lower_, u, recording(course),
-                              is_up ? 1 : -1, Steps::curve, control_, watched_);
+    const auto traced = frequency_branch_part(problem, {lower_, upper_}, end, is_up ? upper_ : lower_, u,
+                                              recording(course), is_up ? 1 : -1, steps_, control_, watched_);
     ResponseBranch& result = course.result;
     result.unknown_stability = traced.unknown_stability;
     result.solver.unknowns = problem->size();

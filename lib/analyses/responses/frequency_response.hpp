@@ -31,6 +31,7 @@ struct FrequencyRange {
   Branches branches = Branches::one;
   BranchLimits limits{};                                     // of all branches
   ResponseMethod method = ResponseMethod::harmonic_balance;  // shooting: for one branch only
+  Steps steps = Steps::curve;  // no key: events, where nothing else of the branches is of interest
   friend bool operator==(const FrequencyRange&, const FrequencyRange&) = default;
 };
 

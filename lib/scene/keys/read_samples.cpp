@@ -1,5 +1,6 @@
 // "for_each" by distributions: samples of parameters.
 #include <arcslip/results/text.hpp>
+#include <arcslip/sampling/distribution.hpp>
 #include <arcslip/scene/keys/study_parameters.hpp>
 
 #include <algorithm>

@@ -6,7 +6,10 @@ namespace arcslip::studies {
 
 /// Options for the extent of the results.
 struct RunOptions {
-  bool points = true;         // false: only events and facts, no rows of points and histories
+  bool points = true;  // false: only events and facts, no rows of points and histories
+  // Without points: branches are traced in steps as long as their events allow, where no accuracy is asked of
+  // all points.
+  bool events_only = false;
   bool coefficients = false;  // points and events with the Fourier coefficients a_n, b_n of the response
   bool figures = false;
   control::Control control{};  // at its end the results so far are kept
