@@ -1,6 +1,7 @@
 // Ensembles: rows against closed forms, and that nothing is lost or twice whatever ends a run.
 
 #include "catch.hpp"
+#include "environment.hpp"
 #include "program.hpp"
 #include "random.hpp"
 #include "volume.hpp"
@@ -8,7 +9,10 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <thread>
@@ -311,4 +315,27 @@ TEST_CASE("of studies without events the facts of a result are quantities") {
         4 * 0.5 * load * std::stod(rows[3].at("amplitude (m)")));
   CHECK_THAT(refusal(place, {"ensemble", "scene.json", "--keep", "amplitud", "--out", "b.sqlite"}),
              Contains("did you mean \"amplitude\"?"));
+}
+
+TEST_CASE("the example of an array of parts has the rows of one run") {
+  const Workplace place;
+  const fs::path example = fs::path(source_folder()) / "examples/ensemble";
+  fs::copy_file(example / "array.sbatch", place / "array.sbatch");
+  std::ifstream file(example / "scene.json");
+  std::string scene{std::istreambuf_iterator<char>(file), {}};
+  scene.replace(scene.find("2048"), 4, "50");
+  place.write("scene.json", scene);
+  const std::string whole = csv_of(place, {"ensemble", "scene.json"});
+  fs::rename(place / "out/scene.frf.sqlite", place / "whole.sqlite");
+  const std::string command =
+      "cd '" + place.path() + "' && PATH='" + fs::path(arcslip_program()).parent_path().string() +
+      "':$PATH SLURM_ARRAY_TASK_COUNT=4 && export PATH SLURM_ARRAY_TASK_COUNT && seq 4 | xargs -P 2 -I{} env "
+      "SLURM_ARRAY_TASK_ID={} bash array.sbatch >listed";
+  REQUIRE(std::system(command.c_str()) == 0);
+  std::vector<std::string> merge = {"merge"};
+  for (const std::string& name : place.files())
+    if (name.starts_with("out/")) merge.push_back(name);
+  REQUIRE(merge.size() == 5);
+  merge.insert(merge.end(), {"--out", "out/scene.frf.sqlite"});
+  CHECK(csv_of(place, merge) == whole);
 }
