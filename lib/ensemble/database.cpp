@@ -49,7 +49,7 @@ Database::Database(const std::string& path, Access access) : path_(path) {
 }
 
 void Database::fail() const {
-  throw DatabaseError(message_of(path_, database_.get()));
+  throw FileFault(message_of(path_, database_.get()));
 }
 
 void Database::execute(const std::string& sql) {

@@ -1,7 +1,7 @@
 #pragma once
 // A SQLite database and its statements, whose failures are exceptions.
 
-#include <arcslip/control/error.hpp>
+#include <arcslip/ensemble/ensemble.hpp>
 
 #include <cstddef>
 #include <memory>
@@ -14,11 +14,6 @@ struct sqlite3_stmt;
 
 namespace arcslip::ensemble {
 
-/// A file of an ensemble that cannot be read or written, or holds something else. what() names it.
-class DatabaseError : public Error {
-  using Error::Error;
-};
-
 /// A value of a row; std::monostate is NULL.
 using Cell = std::variant<std::monostate, double, long, std::string>;
 
@@ -29,7 +24,7 @@ class Database {
  public:
   enum class Access { read, write, create };
 
-  /// Throws DatabaseError.
+  /// Throws FileFault.
   Database(const std::string& path, Access access);
 
   void execute(const std::string& sql);

@@ -56,7 +56,9 @@ class Samples {
       return static_cast<long>(count) / part.count * i +
              static_cast<long>(count) % part.count * i / part.count;
     };
-    range_ = {boundary(part.number - 1), boundary(part.number)};
+    range_ = settings.samples.value_or(Range{boundary(part.number - 1), boundary(part.number)});
+    range_.begin = std::clamp(range_.begin, 0L, static_cast<long>(count));
+    range_.end = std::clamp(range_.end, range_.begin, static_cast<long>(count));
   }
 
   Range range() const { return range_; }
@@ -194,6 +196,15 @@ class Samples {
 
 bool is_available() {
   return true;
+}
+
+std::vector<Range> prepare_file(const scene::Scene& scene, const scene::Study& study,
+                                const Settings& settings) {
+  const Samples samples(scene, study, settings);
+  EnsembleFile file(settings.path, samples.contents(scene));
+  std::vector<Range> missing = file.missing();
+  file.finish();
+  return missing;
 }
 
 Outcome run(const scene::Scene& scene, const scene::Study& study, const Settings& settings) {

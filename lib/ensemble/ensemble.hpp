@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,24 @@ class UnknownQuantity : public Error {
   using Error::Error;
 };
 
+/// A file that holds other samples than those asked for. what() names the difference.
+class OtherEnsemble : public Error {
+  using Error::Error;
+};
+
+/// A file of an ensemble that cannot be read or written, or holds something else. what() names it.
+class FileFault : public Error {
+  using Error::Error;
+};
+
 /// One of several parts with as many samples each as the others, or one more.
 struct Part {
   int number = 1, count = 1;
+};
+
+/// Samples begin to end - 1.
+struct Range {
+  long begin = 0, end = 0;
 };
 
 /// How far a run is.
@@ -39,6 +55,7 @@ struct Settings {
   std::string path{};  // of the file
   std::string keep{};  // quantities and tables (ensemble/kept.hpp); empty: what the command shows
   Part part{};
+  std::optional<Range> samples{};  // in place of a part
   int threads = 1;
   std::function<void(const Progress&)> report{};  // after each sample
   control::Control control{};
@@ -53,8 +70,12 @@ struct Outcome {
 bool is_available();
 
 /// Computes the samples of a study that the file does not have. A sample that fails is a row with its reason.
-/// Throws OtherEnsemble where the file holds others, UnknownQuantity, DatabaseError.
+/// Throws OtherEnsemble where the file holds others, UnknownQuantity, FileFault.
 Outcome run(const scene::Scene& scene, const scene::Study& study, const Settings& settings);
+
+/// Makes the file of run() without computing anything. Returns the samples that it does not have.
+std::vector<Range> prepare_file(const scene::Scene& scene, const scene::Study& study,
+                                const Settings& settings);
 
 /// Joins the files of all parts of an ensemble. Throws OtherEnsemble where they are of different ones, and
 /// where samples are missing or in several parts; then there is no new file.

@@ -70,16 +70,16 @@ void make_tables(Database& database, const Contents& contents) {
 }
 
 std::vector<std::pair<std::string, std::string>> facts_of(Database& database) {
-  if (!has_tables(database)) throw DatabaseError(results::visible(database.path()) + ": found an empty file");
+  if (!has_tables(database)) throw FileFault(results::visible(database.path()) + ": found an empty file");
   if (std::get<long>(database.value("SELECT count(*) FROM sqlite_master WHERE name = 'ensemble'")) == 0)
-    throw DatabaseError(results::visible(database.path()) + ": found a database that is no ensemble");
+    throw FileFault(results::visible(database.path()) + ": found a database that is no ensemble");
   std::vector<std::pair<std::string, std::string>> facts;
   Statement select(database, "SELECT key, value FROM ensemble ORDER BY key");
   while (select.step()) facts.emplace_back(select.text(0), select.text(1));
   if (fact_in(facts, "format") != file_format)
-    throw DatabaseError(results::visible(database.path()) + ": found the format \"" +
-                        results::visible(fact_in(facts, "format")) + "\", must be \"" +
-                        std::string(file_format) + "\"");
+    throw FileFault(results::visible(database.path()) + ": found the format \"" +
+                    results::visible(fact_in(facts, "format")) + "\", must be \"" + std::string(file_format) +
+                    "\"");
   return facts;
 }
 

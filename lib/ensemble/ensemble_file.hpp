@@ -7,6 +7,7 @@
 //   events, points, ...(sample, result, COLUMN...)                               where they are kept
 
 #include <arcslip/ensemble/database.hpp>
+#include <arcslip/ensemble/ensemble.hpp>
 #include <arcslip/ensemble/kept.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/combinations.hpp>
@@ -23,16 +24,6 @@
 namespace arcslip::ensemble {
 
 inline constexpr std::string_view file_format = "arcslip-ensemble-1";
-
-/// A file that holds other samples than those asked for. what() names the difference.
-class OtherEnsemble : public Error {
-  using Error::Error;
-};
-
-/// Samples begin to end - 1.
-struct Range {
-  long begin = 0, end = 0;
-};
 
 struct TableColumn {
   std::string name, type, unit, help;  // type: of SQL
@@ -59,7 +50,7 @@ struct Sample {
 class EnsembleFile {
  public:
   /// Opens a file, or makes it. Throws OtherEnsemble where it holds others than `contents`, and
-  /// DatabaseError.
+  /// FileFault.
   EnsembleFile(const std::string& path, const Contents& contents);
 
   /// Returns the samples that are not there.
@@ -90,7 +81,7 @@ class EnsembleFile {
   Clock::time_point committed_ = Clock::now();
 };
 
-/// Returns the facts of a file. Throws DatabaseError where it is no file of an ensemble.
+/// Returns the facts of a file. Throws FileFault where it is no file of an ensemble.
 std::vector<std::pair<std::string, std::string>> facts_of(Database& database);
 /// Returns a fact; "" where there is none.
 std::string fact_in(const std::vector<std::pair<std::string, std::string>>& facts, std::string_view key);

@@ -20,6 +20,10 @@ Outcome run(const scene::Scene&, const scene::Study&, const Settings&) {
   refuse();
 }
 
+std::vector<Range> prepare_file(const scene::Scene&, const scene::Study&, const Settings&) {
+  refuse();
+}
+
 Progress merge(const std::vector<std::string>&, const std::string&, const control::Control&) {
   refuse();
 }

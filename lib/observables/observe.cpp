@@ -187,7 +187,12 @@ ResponsePoint Observer::observe(const continuation::Accepted& now, PointConditio
   return observe(now, held, maxima, true);
 }
 
-void Observer::observe_next(const continuation::Accepted& now, std::vector<ResponsePoint>& points) {
+void Observer::observe_next(const continuation::Accepted& now, std::vector<ResponsePoint>& points,
+                            bool estimates) {
+  if (!estimates && !stability_) {  // which is known as far as they are
+    points.push_back(observe(now, PointCondition::parameter, false, false));
+    return;
+  }
   const bool spaced = problem_->blocks() > few_blocks && !stability_ && !problem_->model().settings.chosen;
   const bool estimated = !spaced || spaced_.is_due(now.arclength, now.parameter);
   ResponsePoint point = observe(now, PointCondition::parameter, false, estimated);

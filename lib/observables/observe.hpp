@@ -35,8 +35,10 @@ class Observer {
   }
   ResponsePoint observe(const continuation::Accepted& now, PointCondition held, bool maxima);
   /// The same of the next point of a branch, after the last ones, whose truncation estimates may become
-  /// better known by it (SpacedEstimates).
-  void observe_next(const continuation::Accepted& now, std::vector<ResponsePoint>& points);
+  /// better known by it (SpacedEstimates). estimates: whether there are any, next to
+  /// those that the stability needs.
+  void observe_next(const continuation::Accepted& now, std::vector<ResponsePoint>& points,
+                    bool estimates = true);
 
   /// From now on, points have their stability, where it is known.
   void watch_stability(const StabilityRequest& request = true) {

@@ -15,6 +15,7 @@ Public are the names of ``__all__``, and their attributes that do not begin with
 """
 
 from ._core import __version__
+from .ensemble import Ensemble
 from .errors import ArcslipWarning, Fault, ParameterError, SceneError
 from .files import load
 from .motions import Loop, Motion
@@ -27,6 +28,7 @@ from .tables import Row, Table
 
 __all__ = [
     "ArcslipWarning",
+    "Ensemble",
     "Facts",
     "Fault",
     "Loop",

@@ -14,6 +14,17 @@ def run(
     threads: int,
     report: Callable[[dict[str, Any]], object] | None,
 ) -> tuple[Results, int, BaseException | None]: ...
+def run_ensemble(
+    scene: Scene,
+    study: int,
+    keep: str,
+    path: str,
+    samples: tuple[int, int],
+    threads: int,
+    report: Callable[[dict[str, Any]], object] | None,
+) -> tuple[int, int, BaseException | None]: ...
+def missing_samples(scene: Scene, study: int, keep: str, path: str) -> list[tuple[int, int]]: ...
+def add_statistics(path: str) -> str: ...
 
 class Scene:
     @staticmethod

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from . import _core
 from .arrays import as_json
+from .ensemble import Ensemble, ensemble
 from .markup import of_scene
 from .methods import StudyMethods
 from .parameters import Parameters
@@ -167,6 +169,53 @@ class Scene(StudyMethods):
                 raise ValueError(f"found the study {name!r}, must be one of {own}")
         which = [own.index(name) for name in names] if names else range(len(own))
         return run(self._data, which, coefficients, threads, progress)
+
+    def ensemble(
+        self,
+        samples: Any = None,
+        *,
+        study: str | None = None,
+        keep: Sequence[str] = (),
+        executor: Executor | None = None,
+        threads: int | None = None,
+        path: str | os.PathLike[str] | None = None,
+        progress: Progress | None = None,
+    ) -> Ensemble:
+        """Compute a study for many samples of parameters, each a row of a table.
+
+        Rows go to a file as they are computed, so that memory does not grow with their number. With a `path` the same call
+        continues an ensemble that was stopped, as the command ``arcslip ensemble`` does, whose file is the same.
+
+        Parameters
+        ----------
+        samples : mapping or data frame, optional
+            Values of parameters by name, one for each sample; or distributions, as `for_each` of a scene has them:
+            ``{"distributions": {"damper.normal_load": {"normal": [30, 3]}}, "count": 2000}``. By default those of the study.
+        study : str, optional
+            The study; by default the first one, or without `samples` the first one that has some.
+        keep : sequence of str, optional
+            What is kept of each sample: quantities, such as "peak.amplitude" or "damper.stick_percent", and tables, "events"
+            and "points". By default the numbers that the command shows.
+        executor : concurrent.futures.Executor, optional
+            What computes chunks of samples: processes, `dask.distributed` (`client.get_executor()`), MPI
+            (`mpi4py.futures.MPIPoolExecutor`). By default threads of this process.
+        threads : int, optional
+            Threads to use without an executor; by default as many as there are processors.
+        path : path, optional
+            The file; by default a temporary one, which goes away with the result.
+        progress : bool or callable, optional
+            True for a bar; or a callable, which ends the computation by returning False: then the rows so far are returned.
+
+        Returns
+        -------
+        Ensemble
+
+        Raises
+        ------
+        ValueError
+            For a quantity that there is not, with the nearest one, and for a file of other samples.
+        """
+        return ensemble(self, samples, study, keep, executor, threads, path, progress)
 
     def to_json(self) -> str:
         """Return the text of a scene file, with every default."""

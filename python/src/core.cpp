@@ -13,4 +13,5 @@ NB_MODULE(_core, core) {
   arcslip::python::bind_studies(core);
   arcslip::python::bind_results(core);
   arcslip::python::bind_scene(core);
+  arcslip::python::bind_ensembles(core);
 }

@@ -2,6 +2,7 @@
 
 #include "bindings.hpp"
 
+#include <arcslip/ensemble/ensemble.hpp>
 #include <arcslip/optimize/nlopt/minimize.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -33,6 +34,12 @@ void translate(const std::exception_ptr& thrown, void* /*payload*/) {
   } catch (const scene::ParameterError& error) {
     raise("ParameterError", error.what());
   } catch (const scene::FileError& error) {
+    PyErr_SetString(PyExc_OSError, error.what());
+  } catch (const ensemble::UnknownQuantity& error) {
+    PyErr_SetString(PyExc_ValueError, error.what());
+  } catch (const ensemble::OtherEnsemble& error) {
+    PyErr_SetString(PyExc_ValueError, error.what());
+  } catch (const ensemble::FileFault& error) {
     PyErr_SetString(PyExc_OSError, error.what());
   } catch (const optimize::OptionsError& error) {
     PyErr_SetString(PyExc_ValueError, error.what());

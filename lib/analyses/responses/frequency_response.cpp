@@ -245,7 +245,7 @@ class Sweep {
       }
       const double omega = now.p[model::frequency];
       if (course.watch.is_next_to_pole(observer.problem(), now.p, now.u)) return false;
-      observer.observe_next(now, result.points);
+      observer.observe_next(now, result.points, steps_ != Steps::events);
       reported_.points = static_cast<long>(result.points.size());
       reported_.frequency = omega / unit_;
       reported_.step = (omega - course.last) / unit_;

@@ -154,8 +154,28 @@ TEST_CASE("whole tables have the rows of the results, and what is not kept is no
         1);
 }
 
-TEST_CASE("quantities without the curve between events are those with it") {
+TEST_CASE(
+    "quantities without the curve between events are those with it, also where motions lose their "
+    "stability") {
   const Folder folder;
+  // A Duffing oscillator with two folds.
+  const scene::Scene duffing = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
+    "elements": [{"name": "nl", "type": "cubic_spring", "at": "x", "stiffness": 1}],
+    "excitation": [{"name": "force", "at": "x", "cosine": 1}], "response": {"at": "x"},
+    "harmonics": {"order": 5},
+    "studies": [{"kind": "frf", "from": 0.5, "to": 4, "stability": true, "for_each": {"force.cosine": [0.5, 1, 2]}}]})");
+  for (const std::string keep :
+       {"fold.amplitude,fold.frequency,stable", "fold.amplitude,fold.frequency,stable,points"})
+    ensemble::run(duffing, duffing.studies[0], {.path = folder / keep, .keep = keep});
+  Database few_points(folder / "fold.amplitude,fold.frequency,stable", Database::Access::read),
+      all_points(folder / "fold.amplitude,fold.frequency,stable,points", Database::Access::read);
+  for (const std::string name : {"fold.amplitude", "fold.frequency", "stable"}) {
+    const std::vector<double> a = values(few_points, name), b = values(all_points, name);
+    REQUIRE(a.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) CHECK_THAT(a[i], WithinRel(b[i], 1e-8));
+  }
   computed(folder / "a.sqlite", "amplitude,frequency", two_parameters);
   computed(folder / "b.sqlite", "amplitude,frequency,points", two_parameters);
   Database few(folder / "a.sqlite", Database::Access::read), all(folder / "b.sqlite", Database::Access::read);
