@@ -82,9 +82,22 @@ class Formula {
   bool uses(std::size_t expression, int input) const;
   bool uses(int input) const;
 
+  /// The value of the first expression at one place. Allocates nothing in formulas of up to largest_size
+  /// operations. For many places: Evaluator.
+  double value(std::span<const double> inputs) const;
+  /// Its derivative by one input there.
+  double derivative(std::span<const double> inputs, int input) const;
+
  private:
   std::vector<Node> nodes_;
   std::vector<int> results_;
 };
+
+/// The formula that is one of the inputs.
+Formula input(int index);
+
+/// The formula with the first expression of another one in the place of each input. These have inputs in
+/// common, which are those of the result.
+Formula composed(const Formula& formula, std::span<const Formula> inputs);
 
 }  // namespace arcslip::formula

@@ -1,12 +1,11 @@
 #include <arcslip/formula/formula.hpp>
 #include <arcslip/formula/operations.hpp>
+#include <arcslip/formula/tape_builder.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
 #include <utility>
 
 namespace arcslip::formula {
@@ -14,51 +13,6 @@ namespace {
 
 constexpr std::string_view wanted = "must be a number, a name, a function or \"(\"";
 constexpr std::string_view wanted_next = "must be an operator or the end";
-
-/// The nodes of a tape while it grows: equal ones are one node, and what has constants alone is a constant.
-class TapeBuilder {
- public:
-  /// The index of such a node.
-  int add(Operation operation, int a, int b = -1, int c = -1, double value = 0);
-  int add_constant(double value) { return add(Operation::constant, -1, -1, -1, value); }
-  const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
-  bool is_constant(int node) const { return at(node).operation == Operation::constant; }
-  std::size_t size() const { return nodes_.size(); }
-  std::vector<Node> take() { return std::move(nodes_); }
-
- private:
-  struct Hash {
-    std::size_t operator()(const Node& node) const;
-  };
-  std::vector<Node> nodes_;
-  std::unordered_map<Node, int, Hash> known_;
-};
-
-double known_value(Operation operation, double value, double a, double b, double c) {
-  if (operation == Operation::constant) return value;
-  return rule(operation).value(a, operation == Operation::whole_power ? value : b, c);
-}
-
-std::size_t TapeBuilder::Hash::operator()(const Node& node) const {
-  std::size_t hash = static_cast<std::size_t>(node.operation);
-  for (const std::size_t part : {static_cast<std::size_t>(node.a), static_cast<std::size_t>(node.b),
-                                 static_cast<std::size_t>(node.c), std::bit_cast<std::size_t>(node.value)})
-    hash = (hash ^ part) * 0x9e3779b97f4a7c15ull + (hash >> 29);
-  return hash;
-}
-
-int TapeBuilder::add(Operation operation, int a, int b, int c, double value) {
-  Node node{operation, a, b, c, value};
-  const auto value_of = [this](int at) { return at < 0 ? 0.0 : this->at(at).value; };
-  const bool known = operation != Operation::input && (a < 0 || is_constant(a)) &&
-                     (b < 0 || is_constant(b)) && (c < 0 || is_constant(c));
-  if (known)
-    node = {Operation::constant, -1, -1, -1,
-            known_value(operation, value, value_of(a), value_of(b), value_of(c))};
-  const auto [place, is_new] = known_.emplace(node, static_cast<int>(nodes_.size()));
-  if (is_new) nodes_.push_back(node);
-  return place->second;
-}
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
