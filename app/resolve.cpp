@@ -82,7 +82,7 @@ std::string parameter_of(const GivenKey& given) {
 void check_parameter(const scene::Scene& scene, const std::string& option, const std::string& parameter) {
   if (parameter.empty() || parameter == "frequency") return;
   try {
-    scene::parameter_fields(scene, parameter);
+    scene::parameter_field(scene, parameter);
   } catch (const scene::ParameterError& error) {
     throw UsageError(option + " " + parameter + ": " + error.what());
   }

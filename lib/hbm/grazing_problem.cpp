@@ -31,6 +31,7 @@ class ElementCorners {
   elements::Corners& at(In u, In p) {
     map_.gather(u, w_);
     part_.set_fields(p, fields_);
+    p_ = p;
     return *corners_;
   }
   const Vector& motion() const { return w_; }
@@ -57,7 +58,8 @@ class ElementCorners {
   double parameter_derivative(Eigen::Index row, int k) const {
     double sum = 0;
     for (const model::Share& share : part_.shares)
-      if (share.parameter == k) sum += share.factor * at_.by_field(row, share.field);
+      if (share.number.depends_on(k))
+        sum += share.factor * share.number.rate(p_, k) * at_.by_field(row, share.field);
     return sum;
   }
   // g = d(row)/du.
@@ -72,7 +74,7 @@ class ElementCorners {
   ElementMap map_;
   std::unique_ptr<elements::Corners> corners_;
   elements::Corners::Equations at_;
-  Vector w_;
+  Vector w_, p_;
   std::vector<double> fields_;
 };
 

@@ -68,7 +68,7 @@ class ModeProblem final : public continuation::Problem {
   /// x_s + a v, unknowns of motions().
   Vector motion(continuation::In unknowns, double log_amplitude) const;
   /// Of the damping in proportion to the masses: its index among the parameters, and its value at zeta = 0.
-  int alpha() const { return motions_->model().damping->alpha; }
+  int alpha() const { return motions_->model().damping->alpha.parameter(); }
   double own_alpha() const;
 
  private:

@@ -62,9 +62,10 @@ Evaluated HbmEvaluator::move(continuation::In u, continuation::In p, Needs needs
                              const DynamicStiffness* lent) {
   const bool jacobian = needs == Needs::jacobian;
   if (!jacobian && !assembled_) assemble();
-  if (!(p[model::frequency] > 0)) return Evaluated::outside_domain;
+  if (!(p[model::frequency] > 0) || !model::within_bounds(*model_, p)) return Evaluated::outside_domain;
   if (!continuation::all_finite(u) || !continuation::all_finite(p)) return Evaluated::failed;
   u_ = u;
+  p_ = p;
   force_factor_ = p[p.size() - 1];
   lent_ = lent;
   if (!lent_ && !stiffness_.move_to(p)) return Evaluated::outside_domain;
@@ -96,7 +97,7 @@ void HbmEvaluator::move(Part& part, const continuation::In& u, const continuatio
 Evaluated HbmEvaluator::test_piece(continuation::In u, continuation::In p, std::uint64_t piece,
                                    continuation::PieceTest test, bool& inside) {
   if (!assembled_) assemble();
-  if (!(p[model::frequency] > 0)) return Evaluated::outside_domain;
+  if (!(p[model::frequency] > 0) || !model::within_bounds(*model_, p)) return Evaluated::outside_domain;
   if (!continuation::all_finite(u) || !continuation::all_finite(p)) return Evaluated::failed;
   inside = true;
   if (piece != tested_piece_) {  // not known which of its parts are in it
@@ -166,9 +167,9 @@ void HbmEvaluator::parameter_derivative(int k, continuation::Out dR) const {
       part.map.add(dF, dR);
     }
     for (const model::Share& share : part.of->shares) {
-      if (share.parameter != k) continue;
+      if (!share.number.depends_on(k)) continue;
       part.element->field_derivative(share.field, dF);
-      if (share.factor != 1) dF *= share.factor;
+      if (const double rate = share.factor * share.number.rate(p_, k); rate != 1) dF *= rate;
       part.map.add(dF, dR);
     }
   }

@@ -81,7 +81,7 @@ class HbmEvaluator final : public continuation::Evaluator {
   double seconds_[2] = {0, 0};  // of all elements in one thread: without and with their Jacobians
   std::vector<std::size_t> latest_to_leave_;   // a piece, of parts_
   std::optional<std::uint64_t> tested_piece_;  // the last one in which a point was found
-  Vector u_, R_;
+  Vector u_, p_, R_;
   mutable Vector derivative_, product_;
   mutable continuation::Jacobian jacobian_;
   mutable bool assembled_ = true;  // jacobian_ is that of the last place with one

@@ -34,9 +34,7 @@ class Builder {
       const int count = scene.cyclic->sectors, order = scene.cyclic->engine_order % count;
       model_.sector = Sector{count, order < 0 ? order + count : order};
     }
-    for (const scene::Tie& tie : scene.ties)
-      for (const std::string& member : tie.members) tie_of_[member] = tie.name;
-    parameter_of_["frequency"] = 0;
+    numbers_["frequency"] = frequency;
     model_.parameters.push_back({"frequency", "rad/s", 0, 1, 0, 1e300});
   }
 
@@ -48,7 +46,7 @@ class Builder {
     for (const auto& part : scene_.elements) {
       std::vector<Share> shares;
       for (std::size_t k = 0; k < part.values.size(); ++k)
-        shares.push_back({static_cast<int>(k), parameter(part, k)});
+        shares.push_back({static_cast<int>(k), number(part, k)});
       add_element(part, std::move(shares));
     }
     for (const auto& patch : scene_.patches) add_patch(patch);
@@ -74,6 +72,7 @@ class Builder {
     }
     model_.harmonics = {scene_.harmonics.order, !even && model_.antisymmetric, scene_.harmonics.period};
     model_.settings = scene_.harmonics;
+    for (const scene::Constant& constant : scene_.constants) number(constant.name);
     model_.threads = scene_.threads.count;
     model_.catalogue = scene_.catalogue.all;
     return std::move(model_);
@@ -100,7 +99,7 @@ class Builder {
   }
 
   void add_excitation(const scene::Part& part, std::size_t i) {
-    const Excitation base{kind_of(part), part.harmonic, parameter(part, 0), parameter(part, 1),
+    const Excitation base{kind_of(part), part.harmonic, number(part, 0), number(part, 1),
                           sparse(part.directions.front())};
     if (scene::shape_of(part) == nullptr) model_.excitation.push_back(base);
     for (const PlacedShape& shape : shapes_) {
@@ -121,7 +120,7 @@ class Builder {
     const double order = part.options.empty() ? 0 : part.options.as<scene::Rotation>().engine_order;
     for (const std::size_t i : by_speed_) {
       MatrixPart& matrix = model_.matrices[i];
-      matrix.parameter = order > 0 ? frequency : parameter(part, 0);
+      matrix.number = order > 0 ? Number(frequency) : number(part, 0);
       matrix.scale = order > 0 ? order : 1;
     }
   }
@@ -136,17 +135,17 @@ class Builder {
 
   void add_damping(const scene::Part& part) {
     if (part.type == &scene::modal_damping_type()) {
-      const int ratio = parameter(part, 0);
+      const Number ratio = number(part, 0);
       model_.matrices.push_back(
           {LinearKind::damper, ratio, std::make_shared<const Eigen::MatrixXd>(modal_damping())});
       return;
     }
     if (!model_.damping) model_.damping.emplace();
     if (part.type == &scene::rayleigh_type()) {
-      model_.damping->alpha = parameter(part, 0);
-      model_.damping->beta = parameter(part, 1);
+      model_.damping->alpha = number(part, 0);
+      model_.damping->beta = number(part, 1);
     } else {
-      model_.damping->loss_factor = parameter(part, 0);
+      model_.damping->loss_factor = number(part, 0);
     }
   }
 
@@ -182,8 +181,7 @@ class Builder {
   }
 
   LinearPart linear(const scene::Part& part) {
-    LinearPart linear{parameter(part, 0), sparse(part.directions.front()),
-                      sparse_next(part.directions.front())};
+    LinearPart linear{number(part, 0), sparse(part.directions.front()), sparse_next(part.directions.front())};
     model_.linked = model_.linked || linear.next.size() > 0;
     return linear;
   }
@@ -206,44 +204,68 @@ class Builder {
   }
 
   void add_patch(const scene::Part& part) {
-    std::vector<int> parameters;
-    for (std::size_t k = 0; k < part.values.size(); ++k) parameters.push_back(parameter(part, k));
+    std::vector<Number> numbers;
+    for (std::size_t k = 0; k < part.values.size(); ++k) numbers.push_back(number(part, k));
     Patch patch{part.name, model_.elements.size(), {}};
     const auto& options = part.options.as<scene::PatchOptions>();
     for (const scene::PatchRow& row : options.rows) {
       std::vector<Share> shares;
       for (const scene::PatchShare& share : options.shares(row))
-        shares.push_back({static_cast<int>(share.field), parameters[share.from], share.factor});
+        shares.push_back({static_cast<int>(share.field), numbers[share.from], share.factor});
       add_element(scene::patch_element(part, row), std::move(shares));
       patch.areas.push_back(row.area);
     }
     model_.patches.push_back(std::move(patch));
   }
 
-  // The parameter of one field: a new one, or that of the tie which the field belongs to.
-  int parameter(const scene::Part& part, std::size_t field) {
-    const scene::Field& f = part.fields()[field];
-    std::string name = part.name + "." + std::string(f.name);
-    if (const auto tie = tie_of_.find(name); tie != tie_of_.end()) name = tie->second;
-    auto& all = model_.parameters;
-    const auto [known, is_new] = parameter_of_.emplace(name, static_cast<int>(all.size()));
-    if (is_new) {
-      const double value = part.values[field];
-      all.push_back({name, std::string(f.unit), value, std::max(std::abs(value), 1e-300), f.lower, f.upper});
+  // Those of a part are not looked for by their names.
+  Number number(const scene::Part& part, std::size_t field) {
+    const scene::Field& own = part.fields()[field];
+    return number(part.name + "." + std::string(own.name), own, part.values[field], part.formula(field));
+  }
+  Number number(const std::string& name) {
+    if (const auto known = numbers_.find(name); known != numbers_.end()) return known->second;
+    return number(name, scene::parameter_field(scene_, name), scene::value(scene_, name),
+                  scene::parameter_formula(scene_, name));
+  }
+
+  // A parameter, or the formula of a number that follows others: a new one, or the one that is there.
+  Number number(const std::string& name, const scene::Field& field, double value,
+                const scene::NumberText* text) {
+    if (const auto known = numbers_.find(name); known != numbers_.end()) return known->second;
+    Number number;
+    if (text != nullptr) {
+      number = followed(name, field, *text);
     } else {
-      continuation::Parameter& tied = all[static_cast<std::size_t>(known->second)];
-      tied.lower = std::max(tied.lower, f.lower);
-      tied.upper = std::min(tied.upper, f.upper);
+      number = static_cast<int>(model_.parameters.size());
+      model_.parameters.push_back({name, std::string(field.unit), value, std::max(std::abs(value), 1e-300),
+                                   field.lower, field.upper});
     }
-    return known->second;
+    numbers_.emplace(name, number);
+    return number;
+  }
+
+  // A number that is another parameter is that itself.
+  Number followed(const std::string& name, const scene::Field& field, const scene::NumberText& text) {
+    std::vector<formula::Formula> inputs;
+    for (const std::string& parameter : text.parameters) {
+      const Number input = number(parameter);
+      if (text.is_parameter()) return input;
+      inputs.push_back(input.formula() != nullptr ? input.formula()->formula
+                                                  : formula::input(input.parameter()));
+    }
+    const scene::Field bounds{
+        .name = {}, .unit = {}, .lower = field.lower, .upper = field.upper, .lower_open = field.lower_open};
+    model_.formulas.push_back(std::make_shared<const NumberFormula>(
+        NumberFormula{name, formula::composed(*text.formula, inputs), bounds}));
+    return Number(model_.formulas.back());
   }
 
   const scene::Scene& scene_;
-  std::vector<PlacedShape> shapes_;                      // of the excitations
-  std::vector<std::size_t> by_speed_;                    // matrices that follow the speed of rotation
-  std::vector<int> dof_of_;                              // in the model, of those of a scene with matrices
-  std::unordered_map<std::string, std::string> tie_of_;  // names of ties, by their members
-  std::unordered_map<std::string, int> parameter_of_;    // indices, by their names
+  std::vector<PlacedShape> shapes_;                  // of the excitations
+  std::vector<std::size_t> by_speed_;                // matrices that follow the speed of rotation
+  std::vector<int> dof_of_;                          // in the model, of those of a scene with matrices
+  std::unordered_map<std::string, Number> numbers_;  // by their names
   Model model_;
 };
 

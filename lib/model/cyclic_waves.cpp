@@ -33,7 +33,7 @@ Eigen::MatrixXd sum_in_wave(const model::Model& model, model::LinearKind kind, c
                                                           : model.springs;
   if (kind != model::LinearKind::circulatory)
     for (const model::LinearPart& part : parts)
-      model::add_outer(p[part.parameter], part.direction, part.next, t, sum);
+      model::add_outer(part.number.value(p), part.direction, part.next, t, sum);
   for (const model::MatrixPart& part : model.matrices) {
     if (part.kind != kind) continue;
     if (part.waves)

@@ -68,7 +68,7 @@ Eigen::VectorXd constant_force(const Model& model, const continuation::Vector& p
 Eigen::MatrixXd stiffness_at_rest(const Model& model, const continuation::Vector& p) {
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(model.dofs, model.dofs);
   for (const LinearPart& spring : model.springs)
-    add_outer(p[spring.parameter], in_phase(spring.direction, spring.next), K);
+    add_outer(spring.number.value(p), in_phase(spring.direction, spring.next), K);
   for (const MatrixPart& part : model.matrices)
     if (part.kind == LinearKind::spring || part.kind == LinearKind::circulatory) K += part.value(p) * *part.A;
   for (const NonlinearPart& element : model.elements)
@@ -150,10 +150,10 @@ std::optional<int> drifting_dof(const Model& model, const continuation::Vector& 
   // Only where some are negative, or next to matrices, it takes their values to tell.
   const bool by_value = !model.matrices.empty() ||
                         std::any_of(model.springs.begin(), model.springs.end(),
-                                    [&](const LinearPart& spring) { return p[spring.parameter] < 0; });
+                                    [&](const LinearPart& spring) { return spring.number.value(p) < 0; });
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(model.dofs, model.dofs);
   for (const LinearPart& spring : model.springs)
-    if (const double k = p[spring.parameter]; k != 0)
+    if (const double k = spring.number.value(p); k != 0)
       if (const Direction d = in_phase(spring.direction, spring.next); d.squaredNorm() > 0)
         add_outer(by_value ? k : 1 / d.squaredNorm(), d, K);
   for (const MatrixPart& part : model.matrices)

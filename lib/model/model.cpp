@@ -1,5 +1,7 @@
 #include <arcslip/model/model.hpp>
 
+#include <arcslip/scene/faults.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -15,6 +17,26 @@ int parameter_index(const Model& model, const std::string& name) {
   }
   const std::string close = scene::nearest(name, known);
   throw scene::ParameterError("no parameter \"" + name + "\"" + (close.empty() ? "" : "; nearest: " + close));
+}
+
+std::vector<Number*> numbers(Model& model) {
+  std::vector<Number*> all;
+  for (auto* parts : {&model.masses, &model.dampers, &model.springs})
+    for (LinearPart& part : *parts) all.push_back(&part.number);
+  for (MatrixPart& part : model.matrices) all.push_back(&part.number);
+  if (model.damping)
+    all.insert(all.end(), {&model.damping->alpha, &model.damping->beta, &model.damping->loss_factor});
+  for (NonlinearPart& element : model.elements)
+    for (Share& share : element.shares) all.push_back(&share.number);
+  for (Excitation& excitation : model.excitation)
+    all.insert(all.end(), {&excitation.cosine, &excitation.sine});
+  return all;
+}
+
+bool within_bounds(const Model& model, continuation::In p) {
+  return std::all_of(model.formulas.begin(), model.formulas.end(), [&](const auto& number) {
+    return scene::file::within(number->bounds, number->value(p));
+  });
 }
 
 continuation::Vector defaults(const Model& model) {
@@ -33,17 +55,17 @@ std::vector<double> NonlinearPart::fields(const continuation::Vector& p) const {
 void NonlinearPart::set_fields(continuation::In p, std::span<double> fields) const {
   std::fill(fields.begin(), fields.end(), 0.0);
   for (const Share& share : shares)
-    fields[static_cast<std::size_t>(share.field)] += share.factor * p[share.parameter];
+    fields[static_cast<std::size_t>(share.field)] += share.factor * share.number.value(p);
 }
 
 // Of the mean, the amplitude is a.
 std::complex<double> Excitation::amplitude(continuation::In p) const {
-  const std::complex<double> given(p[cosine], harmonic == 0 ? 0.0 : -p[sine]);
+  const std::complex<double> given(cosine.value(p), harmonic == 0 ? 0.0 : -sine.value(p));
   return imaginary ? given * std::complex<double>(0, 1) : given;
 }
 
-std::complex<double> Excitation::amplitude_rate(int k) const {
-  const std::complex<double> rate(cosine == k, harmonic == 0 || sine != k ? 0.0 : -1.0);
+std::complex<double> Excitation::amplitude_rate(continuation::In p, int k) const {
+  const std::complex<double> rate(cosine.rate(p, k), harmonic == 0 ? 0.0 : -sine.rate(p, k));
   return imaginary ? rate * std::complex<double>(0, 1) : rate;
 }
 
@@ -83,7 +105,7 @@ Eigen::VectorXd shape(const Model& model, const Excitation& excitation, const co
     g = excitation.direction;
   } else {
     for (const LinearPart& mass : model.masses)
-      g += p[mass.parameter] * mass.direction.dot(excitation.direction) * mass.direction;
+      g += mass.number.value(p) * mass.direction.dot(excitation.direction) * mass.direction;
   }
   if (excitation.load.size() > 0) g += excitation.load;
   return excitation.factor(p[frequency]) * g;
@@ -123,7 +145,7 @@ Eigen::MatrixXd sum_of(const Model& model, LinearKind kind, const continuation::
                       : kind == LinearKind::damper ? model.dampers
                                                    : model.springs;
   if (kind != LinearKind::circulatory)
-    for (const LinearPart& part : parts) add_outer(p[part.parameter], part.direction, sum);
+    for (const LinearPart& part : parts) add_outer(part.number.value(p), part.direction, sum);
   for (const MatrixPart& part : model.matrices)
     if (part.kind == kind) sum += part.value(p) * *part.A;
   return sum;

@@ -1,11 +1,12 @@
 #pragma once
-// The model of a scene: the parts and where they act, with every number replaced by the index of its
-// parameter. Immutable. The values are in the parameter vector p, so that a change of values needs no new
-// model; the model keeps the defaults.
+// The model of a scene: the parts and where they act, with every number replaced by its parameter, or by a
+// formula of parameters. Immutable. The values are in the parameter vector p, so that a change of values
+// needs no new model; the model keeps the defaults.
 
 #include <arcslip/continuation/problem/problem.hpp>
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/laws/law.hpp>
+#include <arcslip/model/number.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <Eigen/Core>
@@ -42,7 +43,7 @@ struct Sector {
 /// A mass, damper or spring: value * d d^T on the degrees of freedom. In a sector it may reach into the next
 /// one: d + turn(n) next for harmonic n, and value * conj(d) d^T.
 struct LinearPart {
-  int parameter;
+  Number number;
   Direction direction;
   Direction next{};  // empty: within the sector
 };
@@ -70,11 +71,11 @@ class WaveMatrices {
   std::vector<Eigen::MatrixXcd> of_;
 };
 
-/// A matrix of the structure: value * A, with value = c, its parameter over `scale`, or c^2, or 1 where there
-/// is no parameter. Gyroscopic matrices are dampers with a skew-symmetric A.
+/// A matrix of the structure: value * A, with value = c, its number over `scale`, or c^2, or 1 where there
+/// is no number. Gyroscopic matrices are dampers with a skew-symmetric A.
 struct MatrixPart {
   LinearKind kind;
-  int parameter = -1;
+  Number number{};
   std::shared_ptr<const Eigen::MatrixXd> A;  // dofs x dofs; with waves, where all sectors move alike
   bool squared = false;
   double scale = 1;
@@ -82,13 +83,13 @@ struct MatrixPart {
   std::shared_ptr<const WaveMatrices> waves{};  // null: A in all of them
 
   double value(continuation::In p) const {
-    const double c = parameter < 0 ? 1 : p[parameter] / scale;
+    const double c = number.given() ? number.value(p) / scale : 1;
     return squared ? c * c : c;
   }
-  /// Its derivative by the parameter.
-  double rate(continuation::In p) const {
-    if (parameter < 0) return 0;
-    return squared ? 2 * p[parameter] / (scale * scale) : 1 / scale;
+  /// Its derivative by p_k.
+  double rate(continuation::In p, int k) const {
+    if (!number.depends_on(k)) return 0;
+    return (squared ? 2 * number.value(p) / (scale * scale) : 1 / scale) * number.rate(p, k);
   }
 };
 
@@ -97,18 +98,19 @@ struct MatrixPart {
 ///
 ///   K (1 + i s beta + i loss_factor) + M (-s^2 + i s alpha) + i s C
 ///
-/// and no loss at s = 0. Indices of the parameters; -1: none.
+/// and no loss at s = 0. What is not given is 0.
 struct ProportionalDamping {
-  int alpha = -1, beta = -1, loss_factor = -1;
+  Number alpha{}, beta{}, loss_factor{};
 
-  double alpha_at(continuation::In p) const { return alpha < 0 ? 0 : p[alpha]; }
-  double beta_at(continuation::In p) const { return beta < 0 ? 0 : p[beta]; }
-  double loss_factor_at(continuation::In p) const { return loss_factor < 0 ? 0 : p[loss_factor]; }
+  double alpha_at(continuation::In p) const { return alpha.value_or(p, 0); }
+  double beta_at(continuation::In p) const { return beta.value_or(p, 0); }
+  double loss_factor_at(continuation::In p) const { return loss_factor.value_or(p, 0); }
 };
 
-/// What a parameter adds to a field of an element: factor * p[parameter].
+/// What a number adds to a field of an element: factor * number.
 struct Share {
-  int field, parameter;
+  int field;
+  Number number;
   double factor = 1;
 };
 
@@ -146,8 +148,8 @@ struct Patch {
 struct Excitation {
   enum class Kind { force, base_displacement, base_acceleration };
   Kind kind;
-  int harmonic;            // n
-  int cosine, sine;        // parameters
+  int harmonic;  // n
+  Number cosine, sine;
   Direction direction;     // d or r; of r what the degrees of freedom of the model see
   Eigen::VectorXd load{};  // on all rows: what is added to d, or M r of the matrices; empty: none
   bool imaginary = false;
@@ -155,7 +157,7 @@ struct Excitation {
   bool moves_base() const { return kind != Kind::force; }
   /// The complex amplitude, a - i b of a cos n theta + b sin n theta, and its derivative by parameter k.
   std::complex<double> amplitude(continuation::In p) const;
-  std::complex<double> amplitude_rate(int k) const;
+  std::complex<double> amplitude_rate(continuation::In p, int k) const;
   /// The factor of d or M r, and its derivative by the excitation frequency w.
   double factor(double w) const;
   double factor_rate(double w) const;
@@ -188,7 +190,8 @@ struct Model {
   int dofs = 0;
   std::vector<std::string> dof_names;
   int unnamed_from = 0, unnamed_to = 0;  // rows and coordinates of matrices, without a name in the scene
-  std::vector<continuation::Parameter> parameters;  // [0] is "frequency", rad/s; ties stand for their members
+  std::vector<continuation::Parameter> parameters;             // [0] is "frequency", rad/s
+  std::vector<std::shared_ptr<const NumberFormula>> formulas;  // all numbers that follow parameters
   std::vector<LinearPart> masses, dampers, springs;
   std::vector<MatrixPart> matrices;
   std::optional<ProportionalDamping> damping;
@@ -218,8 +221,13 @@ struct Model {
 /// control::Interrupted.
 Model build(const scene::Scene& scene, const control::Control& control = {});
 
-/// Index of a parameter; a tied field leads to its tie. Throws scene::ParameterError.
+/// Index of a parameter. Throws scene::ParameterError; also for a number that follows others.
 int parameter_index(const Model& model, const std::string& name);
+
+/// All numbers of a model.
+std::vector<Number*> numbers(Model& model);
+/// Whether all numbers given by formulas are within their bounds.
+bool within_bounds(const Model& model, continuation::In p);
 
 /// Default values of the parameters.
 continuation::Vector defaults(const Model& model);

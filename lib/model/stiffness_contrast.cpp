@@ -12,27 +12,29 @@ constexpr double far_apart = 1e12;  // stiffnesses, one over the other
 
 std::string stiffness_apart(const Model& model, const continuation::Vector& p) {
   struct Stiffness {
-    int parameter = -1;
+    Number number{};
     double value = 0;  // N/m; in a patch, that of one element
   };
   Stiffness stiffest, softest;
-  const auto look = [&](int k, double value) {
+  const auto look = [&](const Number& number, double value) {
     if (!(value > 0)) return;
-    if (stiffest.parameter < 0 || value > stiffest.value) stiffest = {k, value};
-    if (softest.parameter < 0 || value < softest.value) softest = {k, value};
+    if (!stiffest.number.given() || value > stiffest.value) stiffest = {number, value};
+    if (!softest.number.given() || value < softest.value) softest = {number, value};
   };
-  for (const auto& spring : model.springs) look(spring.parameter, p[spring.parameter]);
+  for (const auto& spring : model.springs) look(spring.number, spring.number.value(p));
   for (const auto& element : model.elements)
     for (std::size_t i = 0; i < element.directions.size(); ++i) {
       const int field = element.law->traits(element.fields(p), static_cast<int>(i)).stiffness_field;
       for (const Share& share : element.shares)
-        if (share.field == field) look(share.parameter, share.factor * p[share.parameter]);
+        if (share.field == field) look(share.number, share.factor * share.number.value(p));
     }
-  if (stiffest.parameter < 0 || stiffest.value < far_apart * softest.value) return {};
+  if (!stiffest.number.given() || stiffest.value < far_apart * softest.value) return {};
   std::ostringstream text;
   text.precision(4);
   const auto name = [&](const Stiffness& of) {
-    return model.parameters[static_cast<std::size_t>(of.parameter)].name;
+    return of.number.formula() != nullptr
+               ? of.number.formula()->name
+               : model.parameters[static_cast<std::size_t>(of.number.parameter())].name;
   };
   text << name(stiffest) << " = " << stiffest.value << " N/m is ";
   if (const double ratio = stiffest.value / softest.value; std::isfinite(ratio))

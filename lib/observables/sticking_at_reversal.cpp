@@ -30,7 +30,7 @@ bool Stops::at_reversals(const elements::Element& at, std::size_t e, const conti
 
 void Stops::move_to(const continuation::Vector& p) {
   std::vector<double> now;
-  for (const model::LinearPart& part : model_.masses) now.push_back(p[part.parameter]);
+  for (const model::LinearPart& part : model_.masses) now.push_back(part.number.value(p));
   for (const model::MatrixPart& part : model_.matrices)
     if (part.kind == model::LinearKind::mass) now.push_back(part.value(p));
   const Eigen::Map<const continuation::Vector> values(now.data(), static_cast<Eigen::Index>(now.size()));

@@ -36,9 +36,11 @@ elements::Harmonics widened(const elements::Harmonics& h) {
 bool have_same_modes(const model::Model& model, const Vector& p, const Vector& q) {
   const Eigen::Index others = p.size() - model::frequency - 1;
   if (p.tail(others) == q.tail(others)) return true;
-  const auto same = [&](int k) { return k < 0 || p[k] == q[k]; };
+  const auto same = [&](const model::Number& number) {
+    return number.value_or(p, 0) == number.value_or(q, 0);
+  };
   for (const auto* parts : {&model.masses, &model.dampers, &model.springs})
-    if (!std::all_of(parts->begin(), parts->end(), [&](const auto& part) { return same(part.parameter); }))
+    if (!std::all_of(parts->begin(), parts->end(), [&](const auto& part) { return same(part.number); }))
       return false;
   if (!std::all_of(model.matrices.begin(), model.matrices.end(),
                    [&](const auto& part) { return part.value(p) == part.value(q); }))
@@ -200,8 +202,8 @@ std::optional<Truncation::Refined> Truncation::refined(const continuation::Accep
   return Refined{wide_.problem(), base_, at, std::move(p)};
 }
 
-// Smooth laws that are sampled have an error below any power of the samples, once these resolve their forces: in
-// the harmonics kept, twice as many then change next to nothing.
+// Smooth laws that are sampled have an error below any power of the samples, once these resolve their forces:
+// in the harmonics kept, twice as many then change next to nothing.
 bool Truncation::samples_too_few() const {
   const auto& model = problem_.model();
   if (!problem_.sampling().exact || std::none_of(model.elements.begin(), model.elements.end(),

@@ -60,7 +60,7 @@ void write_parameters(Html& html, const Contents& contents) {
   write_titles(html, titles);
   html.open("tbody");
   for (std::size_t i = 0; i < std::min(names.size(), most_parameters); ++i) {
-    const scene::Field& field = *scene::parameter_fields(scene, names[i]).front();
+    const scene::Field field = scene::parameter_field(scene, names[i]);
     const auto values = over.find(names[i]);
     html.open("tr").element("th", names[i], {{"scope", "row"}});
     html.element("td", plain_number(scene::value(scene, names[i])), {{"class", "number"}});

@@ -237,19 +237,4 @@ void check_structure(const Scene& scene, Faults& faults) {
   }
 }
 
-void check_ties(const Scene& scene, Faults& faults) {
-  for (const Tie& tie : scene.ties) {
-    const double common = value(scene, tie.members.front());
-    for (const std::string& member : tie.members) {
-      const double own = value(scene, member);
-      if (own != common) {
-        faults.add(child("/ties", tie.name), "found " + member + " = " + number_text(own) + " and " +
-                                                 tie.members.front() + " = " + number_text(common) +
-                                                 ", must have one common value");
-        break;
-      }
-    }
-  }
-}
-
 }  // namespace arcslip::scene::file

@@ -15,7 +15,5 @@ void check_excitation(const Scene& scene, Faults& faults);
 void check_frames(const Scene& scene, Faults& faults);
 /// Some mass, some stiffness, and something that acts on each degree of freedom.
 void check_structure(const Scene& scene, Faults& faults);
-/// Tied fields have the same value.
-void check_ties(const Scene& scene, Faults& faults);
 
 }  // namespace arcslip::scene::file

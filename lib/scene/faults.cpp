@@ -179,8 +179,18 @@ bool within(const Field& field, double value) {
          (field.lower_open ? value > field.lower : value >= field.lower);
 }
 
+void narrow(Field& field, const Field& by) {
+  if (by.lower > field.lower) {
+    field.lower = by.lower;
+    field.lower_open = by.lower_open;
+  } else if (by.lower == field.lower) {
+    field.lower_open = field.lower_open || by.lower_open;
+  }
+  field.upper = std::min(field.upper, by.upper);
+}
+
 std::string allowed_text(const Field& field) {
-  const std::string unit = field.unit == "-" ? "" : " " + std::string(field.unit);
+  const std::string unit = field.unit == "-" || field.unit.empty() ? "" : " " + std::string(field.unit);
   const bool below = std::isfinite(field.lower), above = std::isfinite(field.upper);
   const std::string lower = (field.lower_open ? "above " : "at least ") + number_text(field.lower);
   const std::string upper = "at most " + number_text(field.upper);

@@ -63,6 +63,8 @@ std::string listed(std::span<const std::string> words);
 std::string hint(std::string_view word, std::span<const std::string> known);
 
 bool within(const Field& field, double value);
+/// Leaves what the bounds of another field allow as well.
+void narrow(Field& field, const Field& by);
 /// What a field allows: "at least 0 kg", "above 0 N/m", "a finite number (N)".
 std::string allowed_text(const Field& field);
 /// "found -1.24, must be at least 0 kg".

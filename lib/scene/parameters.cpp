@@ -1,21 +1,19 @@
 // The parameters of a scene by their names.
 #include <arcslip/scene/faults.hpp>
+#include <arcslip/scene/formulas.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/study_type.hpp>
+#include <arcslip/scene/unit.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
 #include <utility>
 
 namespace arcslip::scene {
 namespace {
-
-// One field of one part; Value is double or const double.
-template <class Value>
-struct Slot {
-  const Field* field = nullptr;
-  Value* value = nullptr;
-};
 
 template <class AnyScene>
 auto sections(AnyScene& scene) {
@@ -23,50 +21,165 @@ auto sections(AnyScene& scene) {
                     &scene.rotation, &scene.elements, &scene.patches, &scene.excitation};
 }
 
-// The slot of "part.field", or an empty one.
-template <class Value, class AnyScene>
-Slot<Value> find_slot(AnyScene& scene, std::string_view name) {
-  const std::size_t dot = name.find('.');
-  if (dot == std::string_view::npos) return {};
-  for (auto* section : sections(scene)) {
-    for (auto& part : *section) {
-      if (part.name != name.substr(0, dot)) continue;
+// One number of a scene: a constant, or a field of a part.
+struct Slot {
+  const Constant* constant = nullptr;
+  const Part* part = nullptr;
+  std::size_t field = 0;
+
+  double value() const { return constant != nullptr ? constant->value : part->values[field]; }
+  const NumberText* text() const {
+    if (constant != nullptr) return &constant->text;
+    return field < part->texts.size() ? &part->texts[field] : nullptr;
+  }
+  // Without the bounds of what follows it.
+  Field own_field() const {
+    if (part != nullptr) return part->fields()[field];
+    return {.name = constant->name,
+            .unit = constant->unit,
+            .lower = constant->lower,
+            .upper = constant->upper,
+            .help = constant->help};
+  }
+  std::string name() const {
+    return constant != nullptr ? constant->name : part->name + '.' + std::string(part->fields()[field].name);
+  }
+};
+
+std::optional<Slot> find_field(const Scene& scene, std::string_view part_name, std::string_view field) {
+  for (const auto* section : sections(scene))
+    for (const Part& part : *section) {
+      if (part.name != part_name) continue;
       const std::span<const Field> fields = part.fields();
       for (std::size_t i = 0; i < fields.size(); ++i)
-        if (fields[i].name == name.substr(dot + 1)) return {&fields[i], &part.values[i]};
+        if (fields[i].name == field) return Slot{nullptr, &part, i};
     }
-  }
   return {};
 }
 
-const Tie* find_tie(const Scene& scene, std::string_view name) {
-  const auto tie =
-      std::find_if(scene.ties.begin(), scene.ties.end(), [&](const Tie& t) { return t.name == name; });
-  return tie != scene.ties.end() ? &*tie : nullptr;
+std::optional<Slot> find(const Scene& scene, std::string_view name) {
+  for (const Constant& constant : scene.constants)
+    if (constant.name == name) return Slot{&constant};
+  const std::size_t dot = name.find('.');
+  for (const Constant& constant : scene.constants)  // "part.value" of all sectors of a ring
+    if (dot == std::string_view::npos && constant.name == std::string(name) + ".value")
+      return Slot{&constant};
+  return dot == std::string_view::npos ? find_field(scene, name, "value")
+                                       : find_field(scene, name.substr(0, dot), name.substr(dot + 1));
 }
 
-// All slots of a parameter: one, or the members of a tie.
-template <class Value, class AnyScene>
-std::vector<Slot<Value>> slots_of(AnyScene& scene, std::string_view name) {
-  std::vector<std::string> members = {std::string(name)};
-  if (const Tie* tie = find_tie(scene, name)) members = tie->members;
-  std::vector<Slot<Value>> slots;
-  for (const std::string& member : members) {
-    slots.push_back(find_slot<Value>(scene, member));
-    if (slots.back().value == nullptr) {
-      const std::vector<std::string> known = parameter_names(scene);
-      throw ParameterError("unknown parameter " + file::shown(member) + ", must be one of " +
-                           file::listed(known) + file::hint(member, known));
-    }
+Slot slot_of(const Scene& scene, std::string_view name) {
+  if (const auto slot = find(scene, name)) return *slot;
+  const std::vector<std::string> known = parameter_names(scene);
+  throw ParameterError("unknown parameter " + file::shown(name) + ", must be one of " + file::listed(known) +
+                       file::hint(name, known));
+}
+
+// All slots with a formula.
+std::vector<Slot> followers(const Scene& scene) {
+  std::vector<Slot> all;
+  for (const Constant& constant : scene.constants)
+    if (constant.text.follows()) all.push_back({&constant});
+  for (const auto* section : sections(scene))
+    for (const Part& part : *section)
+      for (std::size_t i = 0; i < part.texts.size(); ++i)
+        if (part.texts[i].follows()) all.push_back({nullptr, &part, i});
+  return all;
+}
+
+// What becomes of the numbers of a scene where one of them changes. Formulas have no cycles.
+class Change {
+ public:
+  Change(const Scene& scene, std::string_view name, double value) : scene_(scene) {
+    known_.emplace(name, value);
   }
-  return slots;
+
+  double value(const std::string& name) {
+    const Slot slot = slot_of(scene_, name);
+    const auto known = known_.find(slot.name());
+    return known != known_.end() ? known->second : value(slot);
+  }
+  double value(const Slot& slot) {
+    const NumberText* text = slot.text();
+    if (text == nullptr || !text->follows()) return slot.value();
+    std::vector<double> inputs;
+    for (const std::string& each : text->parameters) inputs.push_back(value(each));
+    const double value = text->formula->value(inputs);
+    known_.insert_or_assign(slot.name(), value);
+    return value;
+  }
+
+ private:
+  const Scene& scene_;
+  std::unordered_map<std::string, double> known_;
+};
+
+// Whether a formula has a parameter, itself or by the formulas of its own parameters.
+bool follows(const Scene& scene, const NumberText& formula, const std::string& name) {
+  return std::any_of(formula.parameters.begin(), formula.parameters.end(), [&](const std::string& each) {
+    const NumberText* next = parameter_formula(scene, each);
+    return each == name || (next != nullptr && follows(scene, *next, name));
+  });
+}
+
+// text: null where it stays.
+void assign(Scene& scene, const Slot& slot, double value, const NumberText* text) {
+  for (Constant& constant : scene.constants)
+    if (&constant == slot.constant) {
+      constant.value = value;
+      if (text != nullptr) constant.text = *text;
+    }
+  for (auto* section : sections(scene))
+    for (Part& part : *section) {
+      if (&part != slot.part) continue;
+      part.values[slot.field] = value;
+      if (text == nullptr || (part.texts.empty() && text->text.empty())) continue;
+      part.texts.resize(part.values.size());
+      part.texts[slot.field] = *text;
+    }
+}
+
+// Sets a number, and all that follow it.
+void change(Scene& scene, const Slot& slot, double value, const NumberText& text) {
+  const std::string name = slot.name();
+  const Field own = parameter_field(scene, name);
+  if (!file::within(own, value))
+    throw ParameterError("parameter " + file::quoted(name) + ": " + file::bound_fault(own, value));
+  Change change(scene, name, value);
+  std::vector<std::pair<Slot, double>> values;
+  for (const Slot& follower : followers(scene)) {
+    if (follower.name() == name) continue;
+    values.emplace_back(follower, change.value(follower));
+    const Field field = follower.own_field();
+    if (!file::within(field, values.back().second))
+      throw ParameterError("parameter " + file::quoted(name) + " = " + file::number_text(value) + ": " +
+                           file::quoted(follower.name()) + ", which is " +
+                           file::shown(follower.text()->text) +
+                           ", would be out of its bounds: " + file::bound_fault(field, values.back().second));
+  }
+  assign(scene, slot, value, &text);
+  for (const auto& [follower, number] : values) assign(scene, follower, number, nullptr);
+  for (Study& study : scene.studies) drop(study, name);
+}
+
+// "0.2 mm" in the unit of a field; none: it is no number with a unit.
+std::optional<double> quantity_in(const Field& field, const std::string& text) {
+  const auto quantity = split_quantity(text);
+  const auto unit = quantity ? unit_of(quantity->unit) : std::nullopt;
+  if (!unit) return {};
+  const auto wanted = unit_of(field.unit);
+  const auto number = wanted ? value_in(quantity->number, *unit, *wanted) : std::nullopt;
+  if (!number)
+    throw ParameterError("found " + file::shown(text) + ", must be in a unit of the same dimension as " +
+                         std::string(field.unit));
+  return number;
 }
 
 }  // namespace
 
 std::vector<std::string> parameter_names(const Scene& scene) {
   std::vector<std::string> names;
-  for (const Tie& tie : scene.ties) names.push_back(tie.name);
+  for (const Constant& constant : scene.constants) names.push_back(constant.name);
   for (const auto* section : sections(scene)) {
     for (const Part& part : *section)
       for (const Field& field : part.fields()) names.push_back(part.name + '.' + std::string(field.name));
@@ -74,32 +187,90 @@ std::vector<std::string> parameter_names(const Scene& scene) {
   return names;
 }
 
-std::vector<const Field*> parameter_fields(const Scene& scene, std::string_view parameter) {
-  std::vector<const Field*> fields;
-  for (const auto& slot : slots_of<const double>(scene, parameter)) fields.push_back(slot.field);
-  return fields;
+Field parameter_field(const Scene& scene, std::string_view parameter) {
+  const Slot slot = slot_of(scene, parameter);
+  Field all = slot.own_field();
+  if (slot.part != nullptr) return all;
+  for (const Slot& follower : followers(scene)) {
+    const NumberText& text = *follower.text();
+    if (!text.is_parameter() || text.parameters.front() != slot.constant->name) continue;
+    const Field field =
+        follower.part != nullptr ? follower.own_field() : parameter_field(scene, follower.constant->name);
+    file::narrow(all, field);
+    if (all.unit.empty()) all.unit = field.unit;
+  }
+  return all;
+}
+
+const NumberText* parameter_formula(const Scene& scene, std::string_view parameter) {
+  const NumberText* text = slot_of(scene, parameter).text();
+  return text != nullptr && text->follows() ? text : nullptr;
 }
 
 double value(const Scene& scene, std::string_view parameter) {
-  return *slots_of<const double>(scene, parameter).front().value;
+  return slot_of(scene, parameter).value();
 }
 
 void set(Scene& scene, std::string_view parameter, double value) {
-  const auto slots = slots_of<double>(scene, parameter);
-  for (const Tie& tie : scene.ties) {
-    if (std::find(tie.members.begin(), tie.members.end(), parameter) != tie.members.end()) {
-      throw ParameterError("parameter " + file::quoted(parameter) + " is tied, must be set by its tie " +
-                           file::quoted(tie.name));
-    }
+  const Slot slot = slot_of(scene, parameter);
+  if (const NumberText* text = slot.text(); text != nullptr && text->follows())
+    throw ParameterError("parameter " + file::quoted(slot.name()) + " is given by the formula " +
+                         file::shown(text->text) +
+                         ", must be set by what it follows: " + file::listed(text->parameters));
+  change(scene, slot, value, {});
+}
+
+void set_text(Scene& scene, std::string_view parameter, const std::string& text) {
+  const Slot slot = slot_of(scene, parameter);
+  try {
+    if (const auto number = quantity_in(slot.own_field(), text))
+      return change(scene, slot, *number, {text, {}, {}});
+    const NumberText given = read_formula(scene, text);
+    if (follows(scene, given, slot.name()))
+      throw ParameterError("found " + file::shown(text) + ", which follows itself");
+    if (const std::string why = objection_to(scene, slot.name(), given); !why.empty())
+      throw ParameterError(why);
+    change(scene, slot, scene::value(scene, given), given);
+  } catch (const formula::FormulaError& error) {
+    throw ParameterError("parameter " + file::quoted(slot.name()) + ": " + error.what());
   }
-  for (const auto& slot : slots) {
-    if (!file::within(*slot.field, value)) {
-      throw ParameterError("parameter " + file::quoted(parameter) + ": " +
-                           file::bound_fault(*slot.field, value));
-    }
-  }
-  for (const auto& slot : slots) *slot.value = value;
-  for (Study& study : scene.studies) drop(study, parameter);
+}
+
+std::string parameter_of(const Scene& scene, std::string_view name) {
+  const auto slot = find(scene, name);
+  return slot ? slot->name() : "";
+}
+
+NumberText read_formula(const Scene& scene, const std::string& text) {
+  NumberText read{text, {}, {}};
+  const formula::InputOf input_of = [&](std::string_view name) -> std::optional<int> {
+    const std::string parameter = name == "pi" ? "" : parameter_of(scene, name);
+    if (parameter.empty()) return {};
+    const auto known = std::find(read.parameters.begin(), read.parameters.end(), parameter);
+    const auto index = static_cast<int>(known - read.parameters.begin());
+    if (known == read.parameters.end()) read.parameters.push_back(parameter);
+    return index;
+  };
+  read.formula = std::make_shared<const formula::Formula>(std::span(&text, 1), input_of);
+  return read;
+}
+
+double value(const Scene& scene, const NumberText& formula) {
+  std::vector<double> inputs;
+  for (const std::string& parameter : formula.parameters) inputs.push_back(value(scene, parameter));
+  return formula.formula->value(inputs);
+}
+
+std::string objection_to(const Scene& scene, std::string_view parameter, const NumberText& formula) {
+  const Field field = parameter_field(scene, parameter);
+  std::vector<std::string> units;
+  for (const std::string& each : formula.parameters) units.emplace_back(parameter_field(scene, each).unit);
+  const std::string shown = "found " + file::shown(formula.text) + ", ";
+  if (const std::string why = dimension_fault(*formula.formula, units, field.unit); !why.empty())
+    return shown + why;
+  const double value = scene::value(scene, formula);
+  if (std::isfinite(value) && file::within(field, value)) return {};
+  return shown + "which is " + file::number_text(value) + ", must be " + file::allowed_text(field);
 }
 
 void drop(Study& study, std::string_view parameter) {

@@ -7,6 +7,7 @@
 #include <arcslip/scene/field.hpp>
 #include <arcslip/scene/matrices.hpp>
 #include <arcslip/scene/named_file.hpp>
+#include <arcslip/scene/number_text.hpp>
 #include <arcslip/scene/settings.hpp>
 
 #include <cstddef>
@@ -47,20 +48,18 @@ struct Part {
   const PartType* type = nullptr;
   std::vector<Direction> directions;  // of the type's slots; one if it has none
   std::vector<double> values;
-  int harmonic = 1;             // excitation only: its harmonic; 0: constant
-  Settings options{};           // of the type; empty: its defaults
-  double wear_coefficient = 0;  // of elements that dissipate: volume worn for the energy, m^3/J
-  bool detailed = true;         // false: an element of a patch of which results have the totals alone
+  std::vector<NumberText> texts{};  // of the values, as many as them, or none: all are plain numbers
+  int harmonic = 1;                 // excitation only: its harmonic; 0: constant
+  Settings options{};               // of the type; empty: its defaults
+  double wear_coefficient = 0;      // of elements that dissipate: volume worn for the energy, m^3/J
+  bool detailed = true;             // false: an element of a patch of which results have the totals alone
 
   std::span<const Field> fields() const;
+  /// The formula of a value; null: it is a parameter.
+  const NumberText* formula(std::size_t field) const {
+    return field < texts.size() && texts[field].follows() ? &texts[field] : nullptr;
+  }
   friend bool operator==(const Part&, const Part&) = default;
-};
-
-/// One parameter, `name`, that sets several fields "part.field" at once; its default is their common value.
-struct Tie {
-  std::string name;
-  std::vector<std::string> members;
-  friend bool operator==(const Tie&, const Tie&) = default;
 };
 
 /// Made in code: a fixed order of 7. A file without "harmonics" has an accuracy of 1e-4, with an order of up
@@ -135,7 +134,7 @@ struct Scene {
   std::vector<Part> masses, springs, dampers, elements;
   std::vector<Part> patches;  // of contacts (patch.hpp), which all_elements() has after the elements
   std::vector<Part> excitation;
-  std::vector<Tie> ties;
+  std::vector<Constant> constants{};
   Harmonics harmonics;
   std::vector<Response> responses{1};  // at least one: the first defines the amplitude
   std::vector<Study> studies;
@@ -232,16 +231,23 @@ Scene from_folder(Scene scene, const std::string& folder);
 /// stored in results.
 std::string hash(const Scene& scene);
 
-/// Names of all parameters: ties, then every "part.field" (tied fields can also be read by their own names).
+/// Names of all parameters: constants, then every "part.field", also those given by formulas.
 std::vector<std::string> parameter_names(const Scene& scene);
-/// The fields behind a parameter, one for a "part.field" and one for each member of a tie. Throws
-/// ParameterError.
-std::vector<const Field*> parameter_fields(const Scene& scene, std::string_view parameter);
-/// Value of a parameter. Throws ParameterError, with the nearest known name, if it is unknown.
+/// Name, unit, bounds and help of a parameter, valid as long as the scene. The bounds of a constant are also
+/// those of the numbers that are this constant alone. Throws ParameterError.
+Field parameter_field(const Scene& scene, std::string_view parameter);
+/// The formula that gives a parameter; null: it is given by its value. Throws ParameterError.
+const NumberText* parameter_formula(const Scene& scene, std::string_view parameter);
+/// Value of a parameter: a constant, "part.field", or "part" for "part.value". Throws ParameterError, with
+/// the nearest known name, if it is unknown.
 double value(const Scene& scene, std::string_view parameter);
-/// Sets a parameter and drops it from the lists of every study, as drop() does. Throws ParameterError for an
-/// unknown parameter, a value out of bounds, or a tied field, which must be set by its tie.
+/// Sets a parameter, with all numbers whose formulas have it, and drops it from the lists of every study, as
+/// drop() does. Throws ParameterError for an unknown parameter, one that is given by a formula, and a value
+/// by which a number would be out of its bounds; the scene is then as before.
 void set(Scene& scene, std::string_view parameter, double value);
+/// Gives a parameter by a text: a formula of others, "0.12*k", or a number with a unit, "0.2 mm". Throws
+/// ParameterError where set() does, and for a formula that is wrong or follows the parameter itself.
+void set_text(Scene& scene, std::string_view parameter, const std::string& text);
 /// Removes a parameter from for_each and from the lists in the study's settings.
 void drop(Study& study, std::string_view parameter);
 

@@ -18,10 +18,8 @@ SparseMatrix sparse_matrix(int rows, int columns, const std::vector<MatrixEntry>
     return sorted;
   };
   std::vector<int> starts;
-  auto sorted = sorted_by(
-      rows, [](const MatrixEntry& e) { return e.row; }, entries, starts);
-  sorted = sorted_by(
-      columns, [](const MatrixEntry& e) { return e.column; }, sorted, starts);
+  auto sorted = sorted_by(rows, [](const MatrixEntry& e) { return e.row; }, entries, starts);
+  sorted = sorted_by(columns, [](const MatrixEntry& e) { return e.column; }, sorted, starts);
   SparseMatrix A{rows, columns, {0}, {}, {}};
   A.starts.reserve(static_cast<std::size_t>(columns) + 1);
   A.row_of.reserve(sorted.size());

@@ -27,7 +27,7 @@ constexpr std::size_t most_kept = 1000;  // places
 bool same_structure(const model::Model& model, const continuation::Vector& a, const continuation::Vector& b) {
   if (a.size() != b.size()) return false;
   const bool turns = std::any_of(model.matrices.begin(), model.matrices.end(),
-                                 [](const auto& part) { return part.parameter == model::frequency; });
+                                 [](const auto& part) { return part.number.depends_on(model::frequency); });
   for (Eigen::Index k = 0; k < a.size(); ++k)
     if ((k != model::frequency || turns) && a[k] != b[k]) return false;
   return true;

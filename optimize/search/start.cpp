@@ -81,7 +81,7 @@ double closest_to_slip(PeakAmplitude& peaks, const observables::ResponsePoint& p
     const auto& element = point.elements[e];
     bool limits = false;
     for (const model::Share& share : part.shares)
-      limits = limits || (share.parameter == parameter && part.law->limited_by(share.field));
+      limits = limits || (share.number.depends_on(parameter) && part.law->limited_by(share.field));
     if (limits && element.has_stick && element.stick_percent == 100 && element.fundamental.in_phase > 0)
       most = std::max(most, element.fundamental.in_phase / part.law->traits(part.fields(p), 0).limit);
   }

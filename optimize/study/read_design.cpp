@@ -56,7 +56,7 @@ std::vector<std::pair<std::string, double>> read_sum(const Location& place, cons
 void read_design(const Reading& reading, OptimumProblem& problem) {
   const Keys& keys = reading.keys;
   Faults& faults = reading.faults;
-  constexpr std::string_view names = "a list of at least one parameter \"part.field\" or tie";
+  constexpr std::string_view names = "a list of at least one parameter \"part.field\" or constant";
   constexpr std::string_view pairs = "a list of pairs [lower, upper], one for each parameter of \"over\"";
   const Location over = keys.require("over", std::string(names), faults);
   const Location bounds = keys.require("bounds", std::string(pairs), faults);
@@ -157,9 +157,10 @@ LoadCase read_case(const Location& place, const Reading& reading,
   for (const Member* member : members(set, faults)) {
     const Location item{&member->value, child(set.pointer, member->key)};
     const std::size_t before = faults.count();
-    const Field field = bounds_of(member->key, item.pointer, reading.parameters, faults);
-    if (faults.count() == before && !is_taken(member->key, item.pointer, already, faults))
-      one.set.emplace_back(member->key, read_number(item, field, faults).value_or(0));
+    std::string parameter = member->key;
+    const Field field = bounds_of(parameter, item.pointer, reading.parameters, faults);
+    if (faults.count() == before && !is_taken(parameter, item.pointer, already, faults))
+      one.set.emplace_back(parameter, read_number(item, field, faults).value_or(0));
   }
   const Field weight{.name = "weight",
                      .unit = "-",
@@ -213,9 +214,10 @@ void read_scatter(const Reading& reading, OptimumProblem& problem) {
   for (const Member* member : members(place, faults)) {
     const Location item{&member->value, child(place.pointer, member->key)};
     const std::size_t before = faults.count();
-    const Field field = bounds_of(member->key, item.pointer, reading.parameters, faults);
-    if (faults.count() == before && !is_taken(member->key, item.pointer, already, faults)) {
-      DesignVariable& variable = scatter.emplace_back(DesignVariable{member->key});
+    std::string parameter = member->key;
+    const Field field = bounds_of(parameter, item.pointer, reading.parameters, faults);
+    if (faults.count() == before && !is_taken(parameter, item.pointer, already, faults)) {
+      DesignVariable& variable = scatter.emplace_back(DesignVariable{parameter});
       std::tie(variable.lower, variable.upper) =
           read_pair(item, "a pair [lower, upper], each " + allowed_text(field), field, "bound", faults);
     }

@@ -65,7 +65,7 @@ nb::dict files(Scene scene) {
 nb::list parameters(const Scene& scene) {
   nb::list all;
   for (const std::string& name : scene::parameter_names(scene)) {
-    const scene::Field& field = *scene::parameter_fields(scene, name).front();
+    const scene::Field field = scene::parameter_field(scene, name);
     nb::dict each;
     each["name"] = name;
     each["value"] = scene::value(scene, name);

@@ -64,12 +64,16 @@ struct Balance {
 // The same with all periodic excitation times a level.
 std::shared_ptr<const model::Model> at_level(const model::Model& excited, double level) {
   auto model = std::make_shared<model::Model>(excited);
-  std::vector<int> amplitudes;
-  for (const auto& each : model->excitation)
-    if (each.harmonic != 0) amplitudes.insert(amplitudes.end(), {each.cosine, each.sine});
-  std::sort(amplitudes.begin(), amplitudes.end());
-  amplitudes.erase(std::unique(amplitudes.begin(), amplitudes.end()), amplitudes.end());
-  for (const int k : amplitudes) model->parameters[static_cast<std::size_t>(k)].value *= level;
+  const Vector p = model::defaults(excited);
+  const auto add = [&](const char* name, double value) {
+    model->parameters.push_back({name, "", value, std::max(std::abs(value), 1e-300)});
+    return model::Number(static_cast<int>(model->parameters.size()) - 1);
+  };
+  for (model::Excitation& each : model->excitation) {
+    if (each.harmonic == 0) continue;
+    each.cosine = add("cosine at the level", level * each.cosine.value(p));
+    each.sine = add("sine at the level", level * each.sine.value(p));
+  }
   return model;
 }
 

@@ -55,7 +55,7 @@ Directions stiff_directions(const model::Model& model) {
   };
   const continuation::Vector p = model::defaults(model);
   for (const auto& spring : model.springs)
-    if (spring.next.size() == 0) add(p[spring.parameter], spring.direction);
+    if (spring.next.size() == 0) add(spring.number.value(p), spring.direction);
   for (const auto& element : model.elements)
     for (std::size_t i = 0; i < element.directions.size(); ++i)
       if (element.next.empty() || element.next[i].size() == 0)

@@ -72,7 +72,7 @@ std::shared_ptr<const FixedInterfaceModes> fixed_interface_modes(const model::Mo
   auto modes = std::make_shared<FixedInterfaceModes>();
   modes->p = model::defaults(model);
   const auto& p = modes->p;
-  const auto negative = [&](const model::LinearPart& part) { return !(p[part.parameter] >= 0); };
+  const auto negative = [&](const model::LinearPart& part) { return !(part.number.value(p) >= 0); };
   for (const auto* parts : {&model.masses, &model.dampers, &model.springs})
     if (std::any_of(parts->begin(), parts->end(), negative)) return {};
   const auto in_y = [&](model::LinearKind kind) { return blocks(model::sum_of(model, kind, p), P, r); };
@@ -93,7 +93,7 @@ std::shared_ptr<const FixedInterfaceModes> fixed_interface_modes(const model::Mo
   modes->damped = damping.cwiseAbs().maxCoeff() <= proportional * modes->C.ll.cwiseAbs().maxCoeff();
   if (!modes->damped) {
     const auto dampers = std::count_if(model.dampers.begin(), model.dampers.end(),
-                                       [&](const auto& part) { return p[part.parameter] > 0; });
+                                       [&](const auto& part) { return part.number.value(p) > 0; });
     const bool matrices = std::any_of(model.matrices.begin(), model.matrices.end(), [](const auto& part) {
       return part.kind == model::LinearKind::damper;
     });

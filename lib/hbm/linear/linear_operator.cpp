@@ -47,7 +47,7 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
   changes_.reserve(most_changes + 1);
   const auto add = [&](LinearKind kind, const std::vector<model::LinearPart>& parts) {
     for (const model::LinearPart& part : parts)
-      parts_.push_back({kind, part.parameter, {P, part.direction, part.next}, std::nan("")});
+      parts_.push_back({kind, part.number, {P, part.direction, part.next}, std::nan("")});
   };
   add(LinearKind::mass, model.masses);
   add(LinearKind::damper, model.dampers);
@@ -62,13 +62,13 @@ LinearParts::LinearParts(const model::Model& model, const Eigen::MatrixXd& P,
   damping_ = model.damping;
   for (const model::Excitation& excitation : model.excitation) {
     ForceInY force{excitation, harmonics.excited(excitation.harmonic), {}, 0, 0};
-    if (!excitation.moves_base()) force.terms.push_back({-1, {P, excitation.direction}});
-    if (excitation.load.size() > 0) force.terms.push_back({-1, {P, excitation.load}});
+    if (!excitation.moves_base()) force.terms.push_back({{}, {P, excitation.direction}});
+    if (excitation.load.size() > 0) force.terms.push_back({{}, {P, excitation.load}});
     for (const model::LinearPart& mass : model.masses) {
       if (!excitation.moves_base()) break;
       Complex along = mass.direction.dot(excitation.direction);
       if (mass.next.size() > 0) along += turn(force.harmonic) * mass.next.dot(excitation.direction);
-      if (along != 0.0) force.terms.push_back({mass.parameter, {P, mass.direction, mass.next}, along});
+      if (along != 0.0) force.terms.push_back({mass.number, {P, mass.direction, mass.next}, along});
     }
     forces_.push_back(std::move(force));
   }
@@ -118,8 +118,9 @@ void LinearParts::set_positions() {
 }
 
 double LinearParts::modal_value(const PartInY& part) const {
-  const bool known = part.parameter < modes_->p.size() && (part.kind != LinearKind::damper || modes_->damped);
-  return known ? modes_->p[part.parameter] : 0;
+  const bool known =
+      part.number.parameter() < modes_->p.size() && (part.kind != LinearKind::damper || modes_->damped);
+  return known ? part.number.value(modes_->p) : 0;
 }
 
 void LinearParts::move_to(In p) {
@@ -135,7 +136,7 @@ void LinearParts::move_to(In p) {
     force.amplitude = amplitude;
   }
   if (!same)
-    for (PartInY& part : parts_) part.value = p[part.parameter];
+    for (PartInY& part : parts_) part.value = part.number.value(p);
   for (MatrixInY& part : matrix_parts_) {
     const double value = part.of.value(p);
     same = same && part.value == value;
@@ -156,8 +157,8 @@ void LinearParts::set_values() {
     modal_ = changes_.size() <= most_changes;
   }
   for (const MatrixInY& part : matrix_parts_)
-    modal_ = modal_ && part.of.parameter != model::frequency &&
-             (part.of.parameter < 0 || part.value == part.of.value(modes_->p));
+    modal_ = modal_ && !part.of.number.depends_on(model::frequency) &&
+             (!part.of.number.given() || part.value == part.of.value(modes_->p));
   if (modal_) return;
   for (Eigen::MatrixXd* matrix : {&matrices_.M, &matrices_.C, &matrices_.K}) matrix->setZero(size_, size_);
   for (const PartInY& part : parts_) {
@@ -274,8 +275,9 @@ bool LinearParts::force_rate(int n, ComplexVector& f) const {
   bool any = false;
   for (const ForceInY& force : forces_) {
     if (force.harmonic != n) continue;
-    const Complex rate = force.of.factor_rate(p_[model::frequency]) * force.given +
-                         force.of.factor(p_[model::frequency]) * force.of.amplitude_rate(model::frequency);
+    const Complex rate =
+        force.of.factor_rate(p_[model::frequency]) * force.given +
+        force.of.factor(p_[model::frequency]) * force.of.amplitude_rate(p_, model::frequency);
     if (rate == 0.0) continue;
     if (!any) f.setZero();
     any = true;
@@ -297,7 +299,7 @@ Complex LinearParts::base_derivative(int k, int n, const model::Direction& direc
   Complex sum = 0;
   for (const ForceInY& force : forces_) {
     if (force.harmonic != n || !force.of.moves_base()) continue;
-    Complex rate = force.of.displacement(w) * force.of.amplitude_rate(k);
+    Complex rate = force.of.displacement(w) * force.of.amplitude_rate(p_, k);
     if (k == model::frequency) rate += force.of.displacement_rate(w) * force.given;
     sum += direction.dot(force.of.direction) * rate;
   }
@@ -306,13 +308,15 @@ Complex LinearParts::base_derivative(int k, int n, const model::Direction& direc
 
 bool LinearParts::depend_on(int k) const {
   return k == model::frequency ||
-         (damping_ && (k == damping_->alpha || k == damping_->beta || k == damping_->loss_factor)) ||
+         (damping_ && (damping_->alpha.depends_on(k) || damping_->beta.depends_on(k) ||
+                       damping_->loss_factor.depends_on(k))) ||
          std::any_of(matrix_parts_.begin(), matrix_parts_.end(),
-                     [k](const MatrixInY& part) { return part.of.parameter == k; }) ||
+                     [k](const MatrixInY& part) { return part.of.number.depends_on(k); }) ||
          std::any_of(parts_.begin(), parts_.end(),
-                     [k](const PartInY& part) { return part.parameter == k; }) ||
-         std::any_of(forces_.begin(), forces_.end(),
-                     [k](const ForceInY& force) { return force.of.cosine == k || force.of.sine == k; });
+                     [k](const PartInY& part) { return part.number.depends_on(k); }) ||
+         std::any_of(forces_.begin(), forces_.end(), [k](const ForceInY& force) {
+           return force.of.cosine.depends_on(k) || force.of.sine.depends_on(k);
+         });
 }
 
 void LinearParts::differentiate(int k, int n, const ComplexVector& y, double force_factor,
@@ -323,24 +327,27 @@ void LinearParts::differentiate(int k, int n, const ComplexVector& y, double for
   const Factors g = factors(s);
   if (k == model::frequency) add_product(factor_rates(n), n, y, v);
   for (const PartInY& part : parts_)
-    if (part.parameter == k) part.direction.add(g.of(part.kind) * part.direction.along(y, t), t, v);
+    if (part.number.depends_on(k))
+      part.direction.add(part.number.rate(p_, k) * g.of(part.kind) * part.direction.along(y, t), t, v);
   for (const MatrixInY& part : matrix_parts_)
-    if (part.of.parameter == k) add_matrix_product(part, n, part.of.rate(p_) * g.of(part.of.kind), y, v);
+    if (part.of.number.depends_on(k))
+      add_matrix_product(part, n, part.of.rate(p_, k) * g.of(part.of.kind), y, v);
   if (damping_ && s > 0) {
-    const double by_alpha = k == damping_->alpha ? s : 0;
-    const double by_spring = (k == damping_->beta ? s : 0) + (k == damping_->loss_factor ? 1 : 0);
+    const double by_alpha = s * damping_->alpha.rate(p_, k);
+    const double by_spring = s * damping_->beta.rate(p_, k) + damping_->loss_factor.rate(p_, k);
     if (by_alpha != 0 || by_spring != 0)
       add_product({Complex(0, by_alpha), 0, Complex(0, by_spring)}, n, y, v);
   }
   const double w = p_[model::frequency];
   for (const ForceInY& force : forces_) {
     if (force.harmonic != n) continue;
-    Complex rate = force.of.factor(w) * force.of.amplitude_rate(k);
+    Complex rate = force.of.factor(w) * force.of.amplitude_rate(p_, k);
     if (k == model::frequency) rate += force.of.factor_rate(w) * force.given;
     if (rate != 0.0) add(force, -force_factor * rate, v);
     for (const ForceInY::Term& term : force.terms)
-      if (term.mass == k)
-        term.direction.add(-force_factor * force.of.factor(w) * force.given * term.along, t, v);
+      if (term.mass.depends_on(k))
+        term.direction.add(
+            -force_factor * term.mass.rate(p_, k) * force.of.factor(w) * force.given * term.along, t, v);
   }
 }
 

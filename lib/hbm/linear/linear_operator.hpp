@@ -32,7 +32,7 @@ using elements::In;
 
 struct PartInY {
   model::LinearKind kind;
-  int parameter;
+  model::Number number;
   DirectionInY direction;
   double value;  // at the last place
 };
@@ -122,10 +122,10 @@ class LinearParts {
   QuadraticForms quadratic_forms(int n, const ComplexVector& y, double force_factor) const;
 
  private:
-  // amplitude * sum_k value_k along_k direction_k; value_k: p_mass, or 1 where that is -1.
+  // amplitude * sum_k value_k along_k direction_k; value_k: the mass, or 1 where there is none.
   struct ForceInY {
     struct Term {
-      int mass;
+      model::Number mass;
       DirectionInY direction;
       Complex along = 1;
     };
@@ -135,7 +135,7 @@ class LinearParts {
     Complex given;      // the amplitude as the scene gives it
     Complex amplitude;  // of f: with the factor of the frequency
   };
-  double value(const ForceInY::Term& term) const { return term.mass < 0 ? 1 : p_[term.mass]; }
+  double value(const ForceInY::Term& term) const { return term.mass.value_or(p_, 1); }
   // P^T A P: where Z is symmetric in `A`, made when it is first needed, which with modes it seldom is; else
   // in `waves`, one for each diameter of the harmonics or one for all, with entries in the same places.
   struct MatrixInY {

@@ -216,9 +216,9 @@ scene::file::KeysOf<FormulaOptions> formula_keys() {
   parameters.help =
       "{\"k\": {\"value\": 4, \"unit\": \"N\"}, \"c\": 0.1}: what the formula names, a parameter of the "
       "scene each";
-  parameters.schema = R"({"type": "object", "additionalProperties": {"oneOf": [{"type": "number"},
+  parameters.schema = R"({"type": "object", "additionalProperties": {"oneOf": [{"type": ["number", "string"]},
     {"type": "object", "required": ["value", "unit"], "additionalProperties": false,
-     "properties": {"value": {"type": "number"}, "unit": {"type": "string"}}}]}})";
+     "properties": {"value": {"type": ["number", "string"]}, "unit": {"type": "string"}}}]}})";
   scene::file::KeysOf<FormulaOptions> keys;
   keys.add({{force, forces, parameters}, read_formula, write_formula});
   return keys;

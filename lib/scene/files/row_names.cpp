@@ -73,11 +73,9 @@ void read_row_names(const Location& at, const NamedFile& file, Matrices& matrice
 
 std::vector<std::string> row_names(const Location& path, const FileSource& source) {
   Faults reported_later;
-  const Names no_names;
   const Dofs no_dofs;
   const Keys keys({}, {}, reported_later);
-  const Parameters none({}, true, no_names);
-  const Reading reading{keys, any_number, none, no_dofs, reported_later, source};
+  const Reading reading{keys, any_number, no_parameters(), no_dofs, reported_later, source};
   std::vector<std::string> names;
   const auto file = path.node != nullptr ? read_file_of(path, "", reading) : std::nullopt;
   if (!file || !file->text) return names;

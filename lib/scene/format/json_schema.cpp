@@ -26,6 +26,14 @@ Node of_type(std::string_view type) {
   return of({{"type", node(type)}});
 }
 
+/// A number may be a text with a unit, or a formula.
+Node number_or_text_type() {
+  return node(std::vector<std::string>{"number", "string"});
+}
+Node number_or_text() {
+  return of({{"type", number_or_text_type()}});
+}
+
 Node list_of(Node item, int least = 0) {
   Object list{{"type", node("array")}, {"items", std::move(item)}};
   if (least > 0) list.push_back({"minItems", node(least)});
@@ -58,7 +66,8 @@ std::string text_with_unit(std::string_view text, std::string_view unit) {
 }
 
 Node number_schema(const Field& field) {
-  Object number{{"type", node("number")}, {"description", node(text_with_unit(field.help, field.unit))}};
+  Object number{{"type", number_or_text_type()},
+                {"description", node(text_with_unit(field.help, field.unit))}};
   add_bounds(field.lower, field.lower_open, field.upper, number);
   if (field.default_value) number.push_back({"default", node(*field.default_value)});
   return of(std::move(number));
@@ -85,7 +94,7 @@ void add_place(Object& properties, bool next = true) {
   properties.push_back(
       {"between",
        of({{"type", node("array")}, {"items", name}, {"minItems", node(2)}, {"maxItems", node(2)}})});
-  properties.push_back({"direction", next ? reference("weights") : map_of(of_type("number"))});
+  properties.push_back({"direction", next ? reference("weights") : map_of(number_or_text())});
 }
 
 /// One sector of a ring, or all.
@@ -105,7 +114,7 @@ Node cyclic() {
                     {"description", node("all sectors instead of one in the wave of the engine order")}})},
        {"mistuning",
         of({{"type", node("object")},
-            {"additionalProperties", of({{"type", node("array")}, {"items", of_type("number")}})},
+            {"additionalProperties", of({{"type", node("array")}, {"items", number_or_text()}})},
             {"description", node("of a full ring: factors of a part's value, or of the stiffness matrix, for "
                                  "each sector")}})}},
       {"sectors", "engine_order"}));
@@ -129,17 +138,17 @@ Object schema_of_key(const Key& key) {
   switch (key.type) {
     case KeyType::number:
     case KeyType::whole: {
-      Object number{{"type", node(key.type == KeyType::whole ? "integer" : "number")}};
+      Object number{{"type", key.type == KeyType::whole ? node("integer") : number_or_text_type()}};
       add_bounds(key.lower, key.lower_open, key.upper, number);
       return number;
     }
     case KeyType::frequency:
-      return {{"type", node("number")}, {"exclusiveMinimum", node(0)}};
+      return {{"type", number_or_text_type()}, {"exclusiveMinimum", node(0)}};
     case KeyType::value:
-      return {{"type", node("number")}};
+      return {{"type", number_or_text_type()}};
     case KeyType::window:
       return {{"type", node("array")},
-              {"items", of({{"type", node("number")}, {"exclusiveMinimum", node(0)}})},
+              {"items", of({{"type", number_or_text_type()}, {"exclusiveMinimum", node(0)}})},
               {"minItems", node(2)},
               {"maxItems", node(2)}};
     case KeyType::word:
@@ -172,8 +181,8 @@ Node definitions() {
                     {Node::List{of_type("string"), of(object_of({{"next", of_type("string")}}, {"next"}))}}},
                    {"description", node("a degree of freedom, or that of the next sector of a ring")}})},
        {"weights", of({{"type", node("object")},
-                       {"properties", of({{"next", map_of(of_type("number"))}})},
-                       {"additionalProperties", of_type("number")}})},
+                       {"properties", of({{"next", map_of(number_or_text())}})},
+                       {"additionalProperties", number_or_text()}})},
        {"names",
         of(object_of({{"repeat", reference("repeat")}, {"name", of_type("string")}}, {"repeat", "name"}))}});
 }
@@ -263,7 +272,7 @@ Node part_of(const PartType& type, bool with_type) {
   if (type.names_directions() && !of_structure)
     object.back().value = place_object();
   else if (type.options_bring_fields())
-    object.back().value = of_type("number");  // fields that the options bring
+    object.back().value = number_or_text();  // fields that the options bring
   const bool shaped = std::find(excitations.begin(), excitations.end(), &type) != excitations.end();
   if (one_direction && !shaped && !type.names_directions()) object.push_back({"oneOf", one_place()});
   if (&type == &force_type()) {
@@ -292,7 +301,7 @@ Node or_given_by(Node part, const char* key, Node value) {
 Node spring() {
   return or_given_by(
       part_of(spring_type(), false), "frequency",
-      of({{"type", node("number")},
+      of({{"type", number_or_text_type()},
           {"exclusiveMinimum", node(0)},
           {"description", node("natural frequency of the mass there on this spring alone (the scene's "
                                "unit)")}}));
@@ -300,7 +309,7 @@ Node spring() {
 
 Node damper() {
   return or_given_by(part_of(damper_type(), false), "damping_ratio",
-                     of({{"type", node("number")},
+                     of({{"type", number_or_text_type()},
                          {"minimum", node(0)},
                          {"description", node("of the mass there on the spring there")}}));
 }
@@ -319,8 +328,8 @@ Node patch() {
 }
 
 Node range() {
-  return of(object_of({{"from", of_type("number")},
-                       {"to", of_type("number")},
+  return of(object_of({{"from", number_or_text()},
+                       {"to", number_or_text()},
                        {"count", of({{"type", node("integer")}, {"minimum", node(2)}})},
                        {"spacing", one_of_words(spacings, Spacing::linear)}},
                       {"from", "to", "count"}));
@@ -331,7 +340,7 @@ Node samples() {
   Node::List one_of;
   for (const sampling::DistributionDescription& each : sampling::distribution_types()) {
     Node::Object values =
-        std::get<Object>(list_of(of_type("number"), static_cast<int>(each.values.size())).value);
+        std::get<Object>(list_of(number_or_text(), static_cast<int>(each.values.size())).value);
     values.push_back({"maxItems", node(static_cast<int>(each.values.size()))});
     std::string help;
     for (const std::string_view value : each.values) help.append(help.empty() ? "" : ", ").append(value);
@@ -370,8 +379,8 @@ Node study_of(const StudyType& type) {
       {"for_each",
        of({{"oneOf",
             {Node::List{samples(),
-                        map_of(of({{"oneOf", {Node::List{list_of(of_type("number"), 1), range()}}}})),
-                        list_of(map_of(of_type("number")), 1)}}}})});
+                        map_of(of({{"oneOf", {Node::List{list_of(number_or_text(), 1), range()}}}})),
+                        list_of(map_of(number_or_text()), 1)}}}})});
   Object study = object_of(std::move(properties), required);
   if (!needs.empty()) study.push_back({"dependentRequired", of(std::move(needs))});
   study.push_back({"title", node(type.help())});
@@ -393,7 +402,7 @@ Node copies() {
 }
 
 Node above_zero() {
-  return of({{"type", node("number")}, {"exclusiveMinimum", node(0)}});
+  return of({{"type", number_or_text_type()}, {"exclusiveMinimum", node(0)}});
 }
 
 Node matrix_file() {
@@ -424,7 +433,7 @@ Node matrices_of_structure() {
                        {"gyroscopic", matrix_file()},
                        {"circulatory", matrix_file()},
                        {"unsymmetric", unsymmetric()},
-                       {"highest_frequency", of_type("number")},
+                       {"highest_frequency", number_or_text()},
                        {"faces", of_type("string")},
                        {"copies", copies()},
                        {"stiffness_factors", list_of(above_zero())}},
@@ -432,12 +441,12 @@ Node matrices_of_structure() {
 }
 
 Node beam_or_rod(bool bends) {
-  Object keys{{"elements", of_type("integer")}, {"highest_frequency", of_type("number")}};
+  Object keys{{"elements", of_type("integer")}, {"highest_frequency", number_or_text()}};
   for (const char* key : {"length", "young", "density", "area", "width", "height"})
-    keys.push_back({key, of_type("number")});
-  if (bends) keys.push_back({"inertia", of_type("number")});
+    keys.push_back({key, number_or_text()});
+  if (bends) keys.push_back({"inertia", number_or_text()});
   keys.push_back({"ends", list_of(one_of_words(bar_ends, BarEnd::clamped))});
-  keys.push_back({"points", map_of(of_type("number"))});
+  keys.push_back({"points", map_of(number_or_text())});
   return of(object_of(std::move(keys), {"elements", "length", "young", "density", "points"}));
 }
 
@@ -471,7 +480,7 @@ Node harmonics_section() {
   add_bounds(1, false, largest_order, order);
   Object period{{"type", node("integer")}, {"default", node(Harmonics{}.period)}};
   add_bounds(1, false, largest_period, period);
-  Object accuracy{{"type", node("number")}, {"default", node(default_accuracy)}};
+  Object accuracy{{"type", number_or_text_type()}, {"default", node(default_accuracy)}};
   add_bounds(finest_accuracy, false, coarsest_accuracy, accuracy);
   return of(object_of({{"order", of(std::move(order))},
                        {"accuracy", of(std::move(accuracy))},
@@ -482,23 +491,39 @@ Node harmonics_section() {
                       {}));
 }
 
+Node constant() {
+  Node alone = number_or_text();
+  Node with_more = of(object_of({{"value", number_or_text()},
+                                 {"unit", of_type("string")},
+                                 {"bounds", of({{"type", node("array")},
+                                                {"items", number_or_text()},
+                                                {"minItems", node(2)},
+                                                {"maxItems", node(2)}})},
+                                 {"help", of_type("string")}},
+                                {"value"}));
+  return of({{"anyOf", {Node::List{std::move(alone), std::move(with_more)}}}});
+}
+
 Node schema_of(const Catalogue& catalogue) {
   Node::List studies;
   for (const auto& type : catalogue.studies) studies.push_back(study_of(*type));
-  Object root = object_of({{"$schema", of_type("string")},
-                           {"format", of({{"const", node(format_name)}})},
-                           {"title", of_type("string")},
-                           {"frequency_unit", one_of_words(frequency_units, Scene{}.frequency_unit)},
-                           {"structure", structure_section()},
-                           {"elements", list_of_types(catalogue.elements)},
-                           {"patches", list_of(patch())},
-                           {"excitation", list_of_types(excitation_types(), 1)},
-                           {"ties", map_of(list_of(word(), 1))},
-                           {"labels", map_of(of_type("string"))},
-                           {"harmonics", harmonics_section()},
-                           {"response", responses()},
-                           {"studies", list_of(of({{"oneOf", {std::move(studies)}}}))}},
-                          {"format", "structure", "excitation"});
+  Object root = object_of(
+      {{"$schema", of_type("string")},
+       {"format",
+        of({{"enum", node(std::vector{std::string(format_name), std::string(first_format_name)})}})},
+       {"title", of_type("string")},
+       {"frequency_unit", one_of_words(frequency_units, Scene{}.frequency_unit)},
+       {"structure", structure_section()},
+       {"elements", list_of_types(catalogue.elements)},
+       {"patches", list_of(patch())},
+       {"excitation", list_of_types(excitation_types(), 1)},
+       {"constants", map_of(constant())},
+       {"ties", map_of(list_of(word(), 1))},
+       {"labels", map_of(of_type("string"))},
+       {"harmonics", harmonics_section()},
+       {"response", responses()},
+       {"studies", list_of(of({{"oneOf", {std::move(studies)}}}))}},
+      {"format", "structure", "excitation"});
   Object schema{{"$schema", node("https://json-schema.org/draft/2020-12/schema")},
                 {"title", node("Arcslip scene")}};
   schema.insert(schema.end(), root.begin(), root.end());

@@ -61,7 +61,7 @@ class Files {
               {"mass", "stiffness", "damping", "stiffness_speed_squared", "gyroscopic", "circulatory",
                "unsymmetric", "highest_frequency", "faces", "copies", "stiffness_factors"},
               faults),
-        reading_{keys_, frequency, none_, no_dofs_, faults, source},
+        reading_{keys_, frequency, no_parameters(), no_dofs_, faults, source},
         faults_(faults) {}
 
   std::optional<Matrices> read() {
@@ -269,8 +269,6 @@ class Files {
   }
 
   Keys keys_;
-  Names no_names_;
-  Parameters none_{{}, true, no_names_};
   Dofs no_dofs_;
   Reading reading_;
   Faults& faults_;
@@ -316,9 +314,7 @@ std::optional<Matrices> read_matrices(const Keys& structure, FrequencyUnit unit,
   const std::string wanted = "a string, the path of a CSV file of name,row";
   const Location names = structure.require("names", wanted, faults);
   const Keys& keys = structure;
-  const Names no_names;
-  const Parameters none({}, true, no_names);
-  const Reading reading{keys, frequency, none, dofs, faults, source};
+  const Reading reading{keys, frequency, no_parameters(), dofs, faults, source};
   const auto file = read_file_of(names, wanted, reading);
   if (matrices && file && file->text) {
     matrices->names = *file;

@@ -226,7 +226,7 @@ void read_patch_values(const Keys& keys, Part& patch, Faults& faults) {
   for (const Field& field : patch.fields()) {
     const Location value =
         field.default_value ? keys.find(field.name) : keys.require(field.name, allowed_text(field), faults);
-    patch.values.push_back(read_number(value, field, faults).value_or(field.default_value.value_or(0)));
+    read_value(value, field, patch, faults);
   }
   patch.wear_coefficient =
       read_number(keys.find(wear_coefficient.name), wear_coefficient, faults).value_or(0);
@@ -259,8 +259,7 @@ Part read_patch(const Location& place, std::span<const PartType* const> laws, co
     if (!named) names.set_incomplete();
     return patch;
   }
-  const Names none;
-  const Reading reading{keys, any_number, Parameters({}, true, none), dofs, faults, source};
+  const Reading reading{keys, any_number, no_parameters(), dofs, faults, source};
   constexpr const char* wanted = "a string, the path of a CSV file of contacts";
   const Location file = keys.require("file", wanted, faults);
   options.file = read_file_of(file, wanted, reading).value_or(NamedFile{});

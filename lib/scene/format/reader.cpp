@@ -2,6 +2,7 @@
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/consistency.hpp>
 #include <arcslip/scene/files/manifest.hpp>
+#include <arcslip/scene/format/constants.hpp>
 #include <arcslip/scene/format/repeat.hpp>
 #include <arcslip/scene/format/ring.hpp>
 #include <arcslip/scene/format/scene_file.hpp>
@@ -29,8 +30,15 @@ void read_format(const Keys& keys, Faults& faults) {
   const std::string wanted = quoted(format_name);
   const Location place = keys.require("format", wanted, faults);
   const auto text = read_string(place, wanted, faults);
-  if (text && *text != format_name)
-    faults.add(place.pointer, "found " + shown(*text) + ", must be " + wanted);
+  if (!text || *text == first_format_name) return;
+  if (*text != format_name)
+    faults.add(place.pointer,
+               "found " + shown(*text) + ", must be " + wanted + " or " + quoted(first_format_name));
+  if (const Location ties = keys.find("ties"); ties.node != nullptr)
+    faults.add(ties.pointer,
+               "found \"ties\", which belongs to format " + quoted(first_format_name) +
+                   "; must be a constant, {\"constants\": {\"load\": 3}}, that takes the place of "
+                   "the number in each field: \"normal_load\": \"load\"");
 }
 
 // By the default accuracy, for each period of the excitation: no minutes that nobody has asked for.
@@ -168,7 +176,7 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
   Scene scene;
   const Keys root({&node, ""},
                   {"format", "title", "frequency_unit", "structure", "elements", "patches", "excitation",
-                   "ties", "labels", "harmonics", "response", "studies", "$schema"},
+                   "constants", "ties", "labels", "harmonics", "response", "studies", "$schema"},
                   faults);
   if (!root.is_object()) return scene;
   // Faults up to a section: a check that needs sound sections waits until they are.
@@ -181,6 +189,8 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
 
   const std::size_t before_parts = faults.count();
   Names names;
+  scene.constants = read_constants(root.find("constants"), names, faults);
+  const bool constants_sound = is_sound(before_parts);
   const Location structure_place = root.require("structure", "an object with the degrees of freedom", faults);
   const Keys structure(structure_place,
                        {"dofs", "masses", "springs", "dampers", "damping", "rotation", "matrices", "names",
@@ -197,12 +207,14 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
     read_dofs(structure.find("dofs"), dofs, faults);
   scene.dofs = dofs.names;
   scene.masses = read_parts(structure.find("masses"), &mass_type(), {}, dofs, source, names, faults);
+  resolve_formulas(scene, names, nullptr);  // for what is given by natural frequencies
   const auto rows = static_cast<int>(scene.matrices ? scene.matrices->named() : 0);
   const Location springs = structure.find("springs"), dampers = structure.find("dampers");
   const Node with_values =
       with_stiffnesses(springs, {dofs, rows, scene.masses, scene.springs, is_sound(before_parts)},
                        scene.frequency_unit, faults);
   scene.springs = read_parts(in_place(springs, with_values), &spring_type(), {}, dofs, source, names, faults);
+  resolve_formulas(scene, names, nullptr);
   const Node with_damping =
       with_dampings(dampers, {dofs, rows, scene.masses, scene.springs, is_sound(before_parts)}, faults);
   scene.dampers =
@@ -214,7 +226,7 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
   for (const auto& law : catalogue.elements) laws.push_back(law.get());
   scene.elements = read_parts(root.find("elements"), nullptr, laws, dofs, source, names, faults);
   scene.patches = read_patches(root.find("patches"), laws, dofs, source, names, faults);
-  if (is_sound(before_parts)) check_structure(scene, faults);
+  const bool parts_sound = is_sound(before_parts);
 
   dofs.have_next = false;
   const std::size_t before_excitation = faults.count();
@@ -222,10 +234,12 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
   const bool excitation_sound = is_sound(before_excitation);
 
   const std::size_t before_ties = faults.count();
-  scene.ties = read_ties(root.find("ties"), names, faults);
+  read_ties(root.find("ties"), names, scene, faults);
   const bool ties_sound = is_sound(before_ties);
   if (is_sound(before_parts)) tie_sectors(ring, scene);
-  if (is_sound(before_parts)) check_ties(scene, faults);
+  const std::size_t before_formulas = faults.count();
+  resolve_formulas(scene, names, &faults);
+  if (parts_sound && is_sound(before_formulas)) check_structure(scene, faults);
 
   const std::size_t before_harmonics = faults.count();
   scene.harmonics = read_harmonics(root.find("harmonics"), faults);
@@ -237,7 +251,7 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
 
   scene.responses = read_responses(root.find("response"), dofs, faults);
   if (excitation_sound) check_frames(scene, faults);
-  const Parameters parameters(scene.ties, ties_sound, names);
+  const Parameters parameters{scene, constants_sound && ties_sound, names};
   scene.labels = read_labels(root.find("labels"), parameters, faults);
   scene.studies =
       read_studies(root.find("studies"), scene.frequency_unit, parameters, dofs, source, catalogue, faults);

@@ -1,6 +1,7 @@
 #include <arcslip/scene/format/ring.hpp>
 
 #include <arcslip/scene/files/row_names.hpp>
+#include <arcslip/scene/format/constants.hpp>
 #include <arcslip/scene/format/mistuning.hpp>
 #include <arcslip/scene/format/repeat.hpp>
 #include <arcslip/scene/format/tree_lookup.hpp>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <set>
 #include <unordered_set>
 #include <utility>
 
@@ -295,8 +295,6 @@ Ring write_out_ring(Node& scene, const FileSource& source, Origins& origins, Fau
 }
 
 void tie_sectors(const Ring& ring, Scene& scene) {
-  std::set<std::string, std::less<>> tied;
-  for (const Tie& tie : scene.ties) tied.insert(tie.members.begin(), tie.members.end());
   const auto sectors = static_cast<std::size_t>(ring.sectors);
   if (sectors == 0) return;
   for (const auto* section : {&scene.masses, &scene.springs, &scene.dampers, &scene.elements})
@@ -305,14 +303,14 @@ void tie_sectors(const Ring& ring, Scene& scene) {
       const std::string_view part = numbered.substr(0, numbered.size() - 1);  // without the 1
       const auto fields = (*section)[first].fields();
       for (std::size_t k = 0; k < fields.size(); ++k) {
-        Tie tie{std::string(part) + '.' + std::string(fields[k].name), {}};
+        std::vector<std::string> members;
         bool free = true;
         for (std::size_t i = 0; i < sectors; ++i) {
           const Part& each = (*section)[first + i];
-          tie.members.push_back(each.name + '.' + std::string(fields[k].name));
-          free = free && !tied.contains(tie.members.back()) && each.values[k] == (*section)[first].values[k];
+          members.push_back(each.name + '.' + std::string(fields[k].name));
+          free = free && each.formula(k) == nullptr && each.values[k] == (*section)[first].values[k];
         }
-        if (free) scene.ties.push_back(std::move(tie));
+        if (free) tie_to_constant(scene, std::string(part) + '.' + std::string(fields[k].name), members);
       }
     }
 }

@@ -85,6 +85,15 @@ void set_at_pointer(Node::Object& root, std::string_view pointer, Node value) {
   root = std::move(std::get<Node::Object>(holder.value));
 }
 
+const NumberText* text_of(const Part& part, std::size_t field) {
+  return field < part.texts.size() ? &part.texts[field] : nullptr;
+}
+
+// As it was given.
+Node number_node(double value, const NumberText* text) {
+  return text != nullptr && !text->text.empty() ? node(text->text) : node(value);
+}
+
 Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_type = false) {
   const std::vector<std::string>& dofs = scene.dofs;
   Node::List list;
@@ -102,9 +111,9 @@ Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_ty
     const std::span<const Field> fields = part.fields();
     for (std::size_t i = 0; i < fields.size(); ++i)
       if (fields[i].place.empty())
-        object.push_back({std::string(fields[i].name), node(part.values[i])});
+        object.push_back({std::string(fields[i].name), number_node(part.values[i], text_of(part, i))});
       else
-        set_at_pointer(object, fields[i].place, node(part.values[i]));
+        set_at_pointer(object, fields[i].place, number_node(part.values[i], text_of(part, i)));
     list.push_back({std::move(object)});
   }
   return {std::move(list)};
@@ -153,9 +162,16 @@ void add_matrices(const Matrices& matrices, Node::Object& structure) {
   structure.push_back({"names", node(matrices.names.path)});
 }
 
-Node ties_node(const std::vector<Tie>& ties) {
+Node constants_node(const std::vector<Constant>& constants) {
   Node::Object object;
-  for (const Tie& tie : ties) object.push_back({tie.name, node(tie.members)});
+  for (const Constant& constant : constants) {
+    Node::Object one{{"value", number_node(constant.value, &constant.text)}};
+    if (!constant.unit.empty()) one.push_back({"unit", node(constant.unit)});
+    if (std::isfinite(constant.lower) && std::isfinite(constant.upper))
+      one.push_back({"bounds", node(std::vector{constant.lower, constant.upper})});
+    if (!constant.help.empty()) one.push_back({"help", node(constant.help)});
+    object.push_back({constant.name, one.size() == 1 ? std::move(one.front().value) : Node{std::move(one)}});
+  }
   return {std::move(object)};
 }
 
@@ -261,12 +277,12 @@ Node tree(const Scene& scene) {
   }
   Node::Object all{{"format", node(format_name)},
                    {"title", node(scene.title)},
-                   {"frequency_unit", node(word_of(frequency_units, scene.frequency_unit))},
-                   {"structure", {std::move(structure)}},
-                   {"elements", parts_node(scene.elements, scene, true)}};
+                   {"frequency_unit", node(word_of(frequency_units, scene.frequency_unit))}};
+  if (!scene.constants.empty()) all.push_back({"constants", constants_node(scene.constants)});
+  all.insert(all.end(),
+             {{"structure", {std::move(structure)}}, {"elements", parts_node(scene.elements, scene, true)}});
   if (!scene.patches.empty()) all.push_back({"patches", parts_node(scene.patches, scene)});
   all.push_back({"excitation", parts_node(scene.excitation, scene, true)});
-  all.push_back({"ties", ties_node(scene.ties)});
   if (!scene.labels.empty()) all.push_back({"labels", labels_node(scene)});
   all.push_back({"harmonics", harmonics_node(scene.harmonics)});
   all.push_back({"response", responses_node(scene)});

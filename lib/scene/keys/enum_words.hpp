@@ -11,7 +11,9 @@
 
 namespace arcslip::scene::file {
 
-inline constexpr std::string_view format_name = "arcslip-scene-1";
+inline constexpr std::string_view format_name = "arcslip-scene-2";
+/// With "ties" in place of formulas.
+inline constexpr std::string_view first_format_name = "arcslip-scene-1";
 inline constexpr std::string_view ground = "ground";
 inline constexpr std::string_view next_key = "next";  // of a place of the next sector
 

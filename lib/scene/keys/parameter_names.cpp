@@ -24,10 +24,25 @@ bool Names::add(const std::string& name, const std::string& pointer, Faults& fau
     faults.add(pointer, "found " + shown(name) + ", " + reason);
     return false;
   }
+  return add_new(name, pointer, faults);
+}
+
+bool Names::add_constant(const std::string& name, const std::string& pointer, Faults& faults) {
+  const std::size_t dot = name.find('.');
+  std::string reason = objection(name.substr(0, dot));
+  if (reason.empty() && dot != std::string::npos) reason = objection(name.substr(dot + 1));
+  if (name == "pi") reason = "which is 3.14159... in formulas; must be another name";
+  if (reason.empty()) return add_new(name, pointer, faults);
+  faults.add(pointer, "found " + shown(name) + ", " + reason);
+  return false;
+}
+
+bool Names::add_new(const std::string& name, const std::string& pointer, Faults& faults) {
   const auto [first, is_new] = pointers_.emplace(name, pointer);
   if (!is_new) {
     faults.add(pointer, "found the name " + shown(name) + " again, which is also at " +
-                            faults.reported(first->second) + "; parts and ties must have different names");
+                            faults.reported(first->second) +
+                            "; parts and constants must have different names");
   }
   return is_new;
 }

@@ -7,6 +7,7 @@
 #include <arcslip/scene/part_type.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <unordered_map>
 #include <utility>
 
@@ -38,8 +39,7 @@ std::vector<std::string> keys_of(const Part& part, bool has_type, bool has_wear)
   if (has_type) keys.emplace_back("type");
   const auto slots = part.type->slots_with(part.options);
   for (const std::string_view slot : slots) keys.emplace_back(slot);
-  if (part.type->has_one_direction(part.options))
-    keys.insert(keys.end(), {"at", "between", "direction"});
+  if (part.type->has_one_direction(part.options)) keys.insert(keys.end(), {"at", "between", "direction"});
   for (const Key& option : part.type->options()) keys.push_back(option.name);
   if (is_excitation(part.type)) keys.emplace_back("harmonic");
   for (const Field& field : part.fields())
@@ -129,7 +129,7 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
     const Location value = !field.place.empty()  ? at_pointer(place, field.place)
                            : field.default_value ? keys.find(field.name)
                                                  : keys.require(field.name, allowed_text(field), faults);
-    part.values.push_back(read_number(value, field, faults).value_or(field.default_value.value_or(0)));
+    read_value(value, field, part, faults);
   }
   if (has_wear) part.wear_coefficient = read_number(wear, wear_coefficient, faults).value_or(0);
   return part;
@@ -137,13 +137,20 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
 
 }  // namespace
 
+void read_value(const Location& place, const Field& field, Part& part, Faults& faults) {
+  GivenNumber given{field.default_value.value_or(0)};
+  if (const auto read = read_given_number(place, field, faults)) given = *read;
+  part.values.push_back(given.follows ? std::numeric_limits<double>::quiet_NaN() : given.value);
+  if (given.text.empty()) return;
+  part.texts.resize(part.fields().size());
+  part.texts[part.values.size() - 1].text = given.text;
+}
+
 Settings read_options(const PartType& type, const Location& place, const Dofs& dofs, const FileSource& source,
                       Faults& faults) {
   if (type.options().empty()) return {};
   Faults others;  // reported with the keys of the part, which these options decide
-  const Names none;
-  return type.read_options(
-      {Keys(place, {}, others), any_number, Parameters({}, true, none), dofs, faults, source});
+  return type.read_options({Keys(place, {}, others), any_number, no_parameters(), dofs, faults, source});
 }
 
 std::vector<Part> read_parts(const Location& place, const PartType* type,

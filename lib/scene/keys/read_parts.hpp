@@ -26,6 +26,8 @@ std::optional<Matrices> read_matrices(const Keys& structure, FrequencyUnit unit,
                                       Dofs& dofs, Faults& faults);
 std::optional<Matrices> read_bar(const Location& place, bool bends, FrequencyUnit unit,
                                  const FileSource& source, Dofs& dofs, Faults& faults);
+/// The next of the values of a part. Those of formulas are NaN until resolve_formulas().
+void read_value(const Location& place, const Field& field, Part& part, Faults& faults);
 /// The options of a part of this type.
 Settings read_options(const PartType& type, const Location& place, const Dofs& dofs, const FileSource& source,
                       Faults& faults);

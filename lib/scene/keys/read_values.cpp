@@ -1,5 +1,7 @@
 #include <arcslip/scene/keys/read_values.hpp>
 
+#include <arcslip/scene/unit.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <unordered_set>
@@ -84,17 +86,86 @@ std::vector<const Member*> members(const Location& place, Faults& faults) {
   return all;
 }
 
-std::optional<double> read_number(const Location& place, const Field& bounds, Faults& faults) {
+namespace {
+
+// "0.2 mm", in the unit of the field.
+std::optional<double> read_quantity(const Quantity& quantity, const Unit& unit, const Location& place,
+                                    const Field& field, Faults& faults) {
+  const auto wanted = unit_of(field.unit);
+  const auto value = wanted ? value_in(quantity.number, unit, *wanted) : std::nullopt;
+  if (value) return value;
+  const std::string found = "found " + described(*place.node) + ", must be ";
+  if (field.unit == "-")
+    faults.add(place.pointer, found + "a pure number");
+  else
+    faults.add(place.pointer, found + "in a unit of the same dimension as " + std::string(field.unit));
+  return {};
+}
+
+}  // namespace
+
+void add_formula_fault(const formula::FormulaError& error, const std::string& pointer,
+                       std::vector<std::string> names, Faults& faults) {
+  const formula::FormulaFault& fault = error.fault();
+  using Kind = formula::FormulaFault::Kind;
+  if (fault.kind == Kind::text) return faults.add(pointer, error.what());
+  if (fault.kind == Kind::unknown_function) {
+    names.clear();
+    for (const formula::Function& function : formula::functions()) names.emplace_back(function.name);
+  }
+  faults.add(pointer,
+             std::string(error.what()) + ", must be one of " + listed(names) + hint(fault.name, names));
+}
+
+std::optional<GivenNumber> read_given_number(const Location& place, const Field& bounds, Faults& faults) {
   if (place.node == nullptr) return {};
+  GivenNumber given;
   if (const auto* number = place.node->get<double>()) {
-    if (within(bounds, *number)) return *number;
-    faults.add(place.pointer, bound_fault(bounds, *number));
+    given.value = *number;
+  } else if (const auto* text = place.node->get<std::string>()) {
+    given.text = *text;
+    const auto quantity = split_quantity(*text);
+    const auto unit = quantity ? unit_of(quantity->unit) : std::nullopt;
+    if (unit) {
+      const auto value = read_quantity(*quantity, *unit, place, bounds, faults);
+      if (!value) return {};
+      given.value = *value;
+    } else {
+      try {
+        const formula::Formula formula(std::span(text, 1), [&](std::string_view) {
+          given.follows = true;
+          return std::optional(0);
+        });
+        if (given.follows) return given;
+        given.value = formula.value({});
+      } catch (const formula::FormulaError& error) {
+        if (quantity)
+          faults.add(place.pointer, "found the unknown unit " + shown(quantity->unit) +
+                                        ", must be a unit as \"N/m\", \"mm\", or \"N s/m\"");
+        else
+          add_formula_fault(error, place.pointer, {}, faults);
+        return {};
+      }
+    }
   } else if (place.node->get<Oversized>() != nullptr) {
     add_wrong_type(place, "a finite number of at most 1.797e308 in size", faults);
+    return {};
   } else {
     const std::string allowed = allowed_text(bounds);
     add_wrong_type(place, allowed.starts_with("a finite") ? allowed : "a number, " + allowed, faults);
+    return {};
   }
+  if (within(bounds, given.value)) return given;
+  faults.add(place.pointer, bound_fault(bounds, given.value));
+  return {};
+}
+
+std::optional<double> read_number(const Location& place, const Field& bounds, Faults& faults) {
+  const auto given = read_given_number(place, bounds, faults);
+  if (!given) return {};
+  if (!given->follows) return given->value;
+  faults.add(place.pointer, "found " + shown(given->text) +
+                                ", a formula of parameters, must be a number; it would not follow them");
   return {};
 }
 

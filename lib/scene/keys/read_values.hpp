@@ -1,6 +1,7 @@
 #pragma once
 // Reading of single values and of the keys of an object, with a fault for everything invalid.
 
+#include <arcslip/formula/formula.hpp>
 #include <arcslip/scene/faults.hpp>
 #include <arcslip/scene/keys/enum_words.hpp>
 #include <arcslip/scene/keys/json_tree.hpp>
@@ -61,7 +62,20 @@ inline constexpr Field above_0{.name = "value",
                                .upper = std::numeric_limits<double>::infinity(),
                                .lower_open = true};
 
-/// These report a fault and return nothing if the value is absent or invalid.
+/// A number as it stands in a file: plain, "0.2 mm" with a unit, or a formula, "2*pi*47".
+struct GivenNumber {
+  double value = 0;      // in the unit of its field
+  std::string text{};    // empty: plain
+  bool follows = false;  // it is a formula of parameters, whose value is not known
+};
+/// A fault and nothing if the number is absent or invalid.
+std::optional<GivenNumber> read_given_number(const Location& place, const Field& bounds, Faults& faults);
+/// A fault of a formula; names: what it may name.
+void add_formula_fault(const formula::FormulaError& error, const std::string& pointer,
+                       std::vector<std::string> names, Faults& faults);
+
+/// These report a fault and return nothing if the value is absent or invalid. A number may have a unit, and
+/// be a formula without parameters.
 std::optional<double> read_number(const Location& place, const Field& bounds, Faults& faults);
 /// `why` follows the bounds in a message.
 std::optional<int> read_integer(const Location& place, int lower, int upper, Faults& faults,

@@ -81,14 +81,14 @@ KeyGroup<std::pair<double, double>> frequency_range() {
 }
 
 KeyGroup<RangeOver> range_over() {
-  return {{{"over", KeyType::parameter, "", "a parameter \"part.field\" or a tie", "", true,
+  return {{{"over", KeyType::parameter, "", "a parameter \"part.field\" or a constant", "", true,
             "the parameter to vary"},
            {"from", KeyType::value, "parameter", "within the parameter's bounds", "", true,
             "first value of the parameter"},
            {"to", KeyType::value, "parameter", "above \"from\"", "", true, "last value of the parameter"}},
           [](const Reading& reading, RangeOver& range) {
             constexpr std::string_view wanted =
-                "a string, the parameter \"part.field\" or tie that is varied";
+                "a string, the parameter \"part.field\" or constant that is varied";
             const Location over = reading.keys.require("over", std::string(wanted), reading.faults);
             const Field field = read_parameter(over, reading.parameters, range.over, reading.faults);
             std::tie(range.from, range.to) = read_range(reading, field);

@@ -1,3 +1,4 @@
+#include <arcslip/scene/formulas.hpp>
 #include <arcslip/scene/keys/enum_words.hpp>
 #include <arcslip/scene/keys/study_parameters.hpp>
 
@@ -10,26 +11,9 @@ namespace {
 
 constexpr int largest_range = 100'000;  // values
 
-// What every one of the fields allows.
-Field common(const std::vector<const Field*>& fields) {
-  Field all = *fields.front();
-  for (const Field* field : fields) {
-    if (field->lower > all.lower) {
-      all.lower = field->lower;
-      all.lower_open = field->lower_open;
-    } else if (field->lower == all.lower) {
-      all.lower_open = all.lower_open || field->lower_open;
-    }
-    all.upper = std::min(all.upper, field->upper);
-  }
-  return all;
-}
-
 // {"from": 1, "to": 100, "count": 21, "spacing": "logarithmic"}
-std::vector<double> read_spaced_values(const Location& place, const std::vector<const Field*>& fields,
-                                       Faults& faults) {
+std::vector<double> read_spaced_values(const Location& place, const Field& bounds, Faults& faults) {
   const std::size_t before = faults.count();
-  const Field bounds = fields.empty() || fields.front() == nullptr ? any_number : common(fields);
   const Keys keys(place, {"from", "to", "count", "spacing"}, faults);
   const auto from = read_number(keys.require("from", allowed_text(bounds), faults), bounds, faults);
   const auto to = read_number(keys.require("to", allowed_text(bounds), faults), bounds, faults);
@@ -60,81 +44,77 @@ std::vector<double> read_spaced_values(const Location& place, const std::vector<
   return values;
 }
 
-std::vector<double> read_value_list(const Location& place, const std::vector<const Field*>& fields,
-                                    Faults& faults) {
+std::vector<double> read_value_list(const Location& place, const Field& bounds, Faults& faults) {
   constexpr std::string_view wanted = "a list of at least one number";
   if (place.node != nullptr && place.node->get<Node::Object>() != nullptr)
-    return read_spaced_values(place, fields, faults);
+    return read_spaced_values(place, bounds, faults);
   std::vector<double> values;
   const Node::List* list = read_list(place, wanted, faults);
   if (list != nullptr && list->empty())
     faults.add(place.pointer, "found an empty list, must be " + std::string(wanted));
-  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
-    const Node& node = (*list)[i];
-    const auto* number = node.get<double>();
-    const auto bad = std::find_if(fields.begin(), fields.end(), [&](const Field* field) {
-      return number == nullptr || !within(*field, *number);
-    });
-    if (number != nullptr && bad == fields.end())
+  for (std::size_t i = 0; list != nullptr && i < list->size(); ++i)
+    if (const auto number = read_number({&(*list)[i], child(place.pointer, i)}, bounds, faults))
       values.push_back(*number);
-    else if (bad != fields.end())
-      read_number({&node, child(place.pointer, i)}, **bad, faults);
-    else
-      add_wrong_type({&node, child(place.pointer, i)}, "a number", faults);
-  }
   return values;
+}
+
+// All parameters that are there.
+std::vector<std::string> known_parameters(const Parameters& all) {
+  std::vector<std::string> known;
+  for (const Constant& constant : all.scene.constants) known.push_back(constant.name);
+  known.insert(known.end(), all.names.fields().begin(), all.names.fields().end());
+  return known;
+}
+
+void add_follower_fault(const std::string& parameter, const NumberText& formula, const std::string& pointer,
+                        Faults& faults) {
+  faults.add(pointer, "found " + shown(parameter) + ", which is given by the formula " + shown(formula.text) +
+                          "; must be what that follows: " + listed(formula.parameters));
 }
 
 }  // namespace
 
-Parameters::Parameters(const std::vector<Tie>& all_ties, bool complete, const Names& all_names)
-    : ties(all_ties), ties_complete(complete), names(all_names) {
-  for (const Tie& tie : ties) {
-    tie_by_name.emplace(tie.name, &tie);
-    for (const std::string& member : tie.members) tie_of_field.emplace(member, &tie);
-  }
+const Parameters& no_parameters() {
+  static const Scene scene;
+  static const Names names;
+  static const Parameters none{scene, true, names};
+  return none;
 }
 
-std::vector<const Field*> fields_of(const std::string& parameter, const std::string& pointer,
-                                    const Parameters& all, Faults& faults) {
-  const auto tied = all.tie_of_field.find(parameter);
-  if (tied != all.tie_of_field.end()) {
-    faults.add(pointer,
-               "found " + shown(parameter) + ", which is tied; must be its tie " + shown(tied->second->name));
+std::optional<Field> field_of(std::string& parameter, const std::string& pointer, const Parameters& all,
+                              Faults& faults) {
+  const auto& constants = all.scene.constants;
+  const bool is_constant = std::any_of(constants.begin(), constants.end(),
+                                       [&](const Constant& each) { return each.name == parameter; });
+  const bool bare = parameter.find('.') == std::string::npos;
+  Faults ignored;
+  const Field* field = nullptr;
+  if (!is_constant) {
+    if (all.names.may_exist(parameter) || (!all.constants_complete && bare)) return {};
+    if (bare && all.names.field(parameter + ".value", pointer, ignored) != nullptr) parameter += ".value";
+    field = all.names.field(parameter, pointer, ignored);
+    if (field == nullptr && faults.full()) faults.add({}, {});
+    if (field == nullptr && !faults.full()) {
+      const std::vector<std::string> known = known_parameters(all);
+      faults.add(pointer, "found the unknown parameter " + shown(parameter) + ", must be one of " +
+                              listed(known) + hint(parameter, known));
+    }
+    if (field == nullptr) return {};
+  }
+  if (parameter_of(all.scene, parameter).empty()) return *field;  // of a part with a fault
+  if (const NumberText* formula = parameter_formula(all.scene, parameter)) {
+    add_follower_fault(parameter, *formula, pointer, faults);
     return {};
   }
-  const auto tie = all.tie_by_name.find(parameter);
-  Faults ignored;
-  std::vector<const Field*> fields;
-  if (tie != all.tie_by_name.end()) {
-    for (const std::string& member : tie->second->members)
-      fields.push_back(all.names.field(member, pointer, ignored));
-  } else if (all.names.may_exist(parameter) ||
-             (!all.ties_complete && parameter.find('.') == std::string::npos)) {
-    return {};  // it may belong to what could not be read
-  } else if (const Field* field = all.names.field(parameter, pointer, ignored)) {
-    fields.push_back(field);
-  } else if (!faults.full()) {
-    std::vector<std::string> known;
-    for (const Tie& each : all.ties) known.push_back(each.name);
-    known.insert(known.end(), all.names.fields().begin(), all.names.fields().end());
-    faults.add(pointer, "found the unknown parameter " + shown(parameter) + ", must be one of " +
-                            listed(known) + hint(parameter, known));
-  } else {
-    faults.add({}, {});
-  }
-  return fields;
+  return is_constant ? parameter_field(all.scene, parameter) : *field;
 }
 
 std::string with_unit(double value, const Field& field) {
   return number_text(value) + (field.unit == "-" ? "" : " " + std::string(field.unit));
 }
 
-Field bounds_of(const std::string& parameter, const std::string& pointer, const Parameters& all,
-                Faults& faults) {
-  const auto fields = fields_of(parameter, pointer, all, faults);
-  const bool known = !fields.empty() && std::find(fields.begin(), fields.end(), nullptr) == fields.end();
-  return known ? common(fields) : any_number;
+Field bounds_of(std::string& parameter, const std::string& pointer, const Parameters& all, Faults& faults) {
+  return field_of(parameter, pointer, all, faults).value_or(any_number);
 }
 
 bool is_taken(const std::string& parameter, const std::string& pointer,
@@ -147,7 +127,7 @@ bool is_taken(const std::string& parameter, const std::string& pointer,
 }
 
 Field read_parameter(const Location& place, const Parameters& all, std::string& parameter, Faults& faults) {
-  constexpr std::string_view wanted = "a string, the parameter \"part.field\" or tie that is varied";
+  constexpr std::string_view wanted = "a string, the parameter \"part.field\" or constant that is varied";
   const auto over = read_string(place, wanted, faults);
   if (!over) return any_number;
   parameter = *over;
@@ -160,10 +140,10 @@ Field read_parameter(const Location& place, const Parameters& all, std::string& 
   if (std::find(result_names.begin(), result_names.end(), *over) != result_names.end()) {
     faults.add(place.pointer,
                "found " + shown(*over) +
-                   ", by which results name a quantity of their own; must be a tie of another name");
+                   ", by which results name a quantity of their own; must be a constant of another name");
     return any_number;
   }
-  return bounds_of(*over, place.pointer, all, faults);
+  return bounds_of(parameter, place.pointer, all, faults);
 }
 
 ValueLists read_value_lists(const Location& place, const Parameters& all,
@@ -171,9 +151,10 @@ ValueLists read_value_lists(const Location& place, const Parameters& all,
   ValueLists lists;
   for (const Member* member : members(place, faults)) {
     const Location item{&member->value, child(place.pointer, member->key)};
-    const auto fields = fields_of(member->key, item.pointer, all, faults);
-    if (fields.empty() || !is_taken(member->key, item.pointer, taken, faults))
-      lists.emplace_back(member->key, read_value_list(item, fields, faults));
+    std::string parameter = member->key;
+    const auto field = field_of(parameter, item.pointer, all, faults);
+    if (!field || !is_taken(parameter, item.pointer, taken, faults))
+      lists.emplace_back(parameter, read_value_list(item, field.value_or(any_number), faults));
   }
   return lists;
 }
@@ -190,11 +171,11 @@ class ParameterRows {
     Faults reported_below;
     for (const Member* member : members(place, reported_below)) {
       const std::string pointer = child(place.pointer, member->key);
-      const Field bounds = bounds_of(member->key, pointer, all_, faults_);
-      is_taken(member->key, pointer, taken_, faults_);
+      std::string parameter = member->key;
+      bounds_.push_back(bounds_of(parameter, pointer, all_, faults_));
+      is_taken(parameter, pointer, taken_, faults_);
       index_.emplace(member->key, lists_.size());
-      bounds_.push_back(bounds);
-      lists_.emplace_back(member->key, std::vector<double>());
+      lists_.emplace_back(std::move(parameter), std::vector<double>());
     }
     if (lists_.empty() && place.node->get<Node::Object>() != nullptr)
       faults_.add(place.pointer,
@@ -268,18 +249,19 @@ std::vector<std::pair<std::string, std::string>> read_labels(const Location& pla
   for (const Member* member : members(place, faults)) {
     const Location item{&member->value, child(place.pointer, member->key)};
     const std::vector<std::string> quantities(label_names.begin(), label_names.end());
-    if (std::find(quantities.begin(), quantities.end(), member->key) == quantities.end()) {
-      if (all.ties_complete && member->key.find('.') == std::string::npos &&
-          !all.tie_by_name.contains(member->key))
-        faults.add(item.pointer, "found " + shown(member->key) + ", must be a parameter, or one of " +
-                                     listed(quantities) + hint(member->key, quantities));
-      else
-        fields_of(member->key, item.pointer, all, faults);
+    std::string axis = member->key;
+    if (std::find(quantities.begin(), quantities.end(), axis) == quantities.end()) {
+      const bool is_name = axis.find('.') != std::string::npos || !parameter_of(all.scene, axis).empty();
+      if (all.constants_complete && !is_name)
+        faults.add(item.pointer, "found " + shown(axis) + ", must be a parameter, or one of " +
+                                     listed(quantities) + hint(axis, quantities));
+      else if (parameter_of(all.scene, axis).empty() || parameter_formula(all.scene, axis) == nullptr)
+        field_of(axis, item.pointer, all, faults);
     }
     const auto text = read_string(item, "a string, the label of an axis", faults);
     if (text && text->empty())
       faults.add(item.pointer, "found \"\", must be a label of at least one character");
-    labels.emplace_back(member->key, text.value_or(""));
+    labels.emplace_back(axis, text.value_or(""));
   }
   return labels;
 }

@@ -5,28 +5,29 @@
 #include <arcslip/scene/keys/read_values.hpp>
 #include <arcslip/scene/study_type.hpp>
 
+#include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 namespace arcslip::scene::file {
 
-/// Lookup of the parameters of a scene by name.
+/// Lookup of the parameters of a scene by name, while it is read.
 struct Parameters {
-  /// Where the ties are not complete, others may exist.
-  Parameters(const std::vector<Tie>& ties, bool ties_complete, const Names& names);
-
-  const std::vector<Tie>& ties;
-  bool ties_complete;
+  const Scene& scene;       // its parts and constants
+  bool constants_complete;  // otherwise others may exist
   const Names& names;
-  std::unordered_map<std::string_view, const Tie*> tie_by_name, tie_of_field;
 };
+/// Where there are none.
+const Parameters& no_parameters();
 
-/// The fields whose bounds apply to this parameter; empty after a fault.
-std::vector<const Field*> fields_of(const std::string& parameter, const std::string& pointer,
-                                    const Parameters& all, Faults& faults);
+/// The field of a parameter, whose bounds are those of all numbers that it sets. `parameter` becomes its full
+/// name: "part.value" for "part". None after a fault, or where it may belong to what could not be read.
+std::optional<Field> field_of(std::string& parameter, const std::string& pointer, const Parameters& all,
+                              Faults& faults);
+/// The same, unbounded where there is none.
+Field bounds_of(std::string& parameter, const std::string& pointer, const Parameters& all, Faults& faults);
 
 /// The continuation parameter of a study, and its bounds; unbounded after a fault.
 Field read_parameter(const Location& place, const Parameters& all, std::string& parameter, Faults& faults);
@@ -61,10 +62,6 @@ std::vector<std::pair<std::string, std::string>> read_labels(const Location& pla
 /// Reports a fault and returns true if the study sets this parameter elsewhere.
 bool is_taken(const std::string& parameter, const std::string& pointer,
               const std::vector<ParameterUse>& taken, Faults& faults);
-
-/// The common bounds of all fields set by a parameter; unbounded after a fault.
-Field bounds_of(const std::string& parameter, const std::string& pointer, const Parameters& all,
-                Faults& faults);
 
 /// "3 N".
 std::string with_unit(double value, const Field& field);

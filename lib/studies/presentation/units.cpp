@@ -8,7 +8,7 @@
 namespace arcslip::studies {
 
 std::string parameter_unit(const scene::Scene& scene, std::string_view parameter) {
-  return std::string(scene::parameter_fields(scene, parameter).front()->unit);
+  return std::string(scene::parameter_field(scene, parameter).unit);
 }
 
 results::Object named(const scene::Scene& scene, const NamedValues& values) {

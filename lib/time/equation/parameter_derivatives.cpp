@@ -182,12 +182,38 @@ double size_of_parameter(const model::Model& model, const continuation::Vector& 
   return size > least_size ? size : 1;
 }
 
-std::optional<EquationRates> equation_rates(const model::Model& model, const continuation::Vector& p, int k) {
+namespace {
+
+// The model with a parameter of its own for each number that is a formula, and the derivatives of all by one.
+struct WithoutFormulas {
+  model::Model model;
+  continuation::Vector p, by;
+};
+
+WithoutFormulas without_formulas(const model::Model& model, const continuation::Vector& p, int k) {
+  WithoutFormulas all{model, p, {}};
+  const Eigen::Index own = p.size(), more = static_cast<Eigen::Index>(model.formulas.size());
+  all.p.conservativeResize(own + more);
+  all.by.setZero(own + more);
+  all.by[k] = 1;
+  all.model.formulas.clear();
+  for (Eigen::Index i = 0; i < more; ++i) {
+    const auto& formula = model.formulas[static_cast<std::size_t>(i)];
+    all.p[own + i] = formula->value(p);
+    all.by[own + i] = formula->rate(p, k);
+    all.model.parameters.push_back({formula->name, {}, all.p[own + i], std::abs(all.p[own + i])});
+    for (model::Number* number : model::numbers(all.model))
+      if (number->formula() == formula) *number = static_cast<int>(own + i);
+  }
+  return all;
+}
+
+// By parameter k, and by all others along with it.
+std::optional<EquationRates> rates_along(const model::Model& model, const continuation::Vector& p, int k,
+                                         const continuation::Vector& by) {
   EquationRates rates;
   const double h = size_of_parameter(model, p, k);
-  continuation::Vector above_p = p, below_p = p;
-  above_p[k] += h;
-  below_p[k] -= h;
+  const continuation::Vector above_p = p + h * by, below_p = p - h * by;
   const double distance = above_p[k] - below_p[k];
   rates.M = rate_of(model::mass_matrix(model, above_p), model::mass_matrix(model, below_p), distance);
   rates.C = rate_of(model::damping_matrix(model, above_p), model::damping_matrix(model, below_p), distance);
@@ -217,6 +243,18 @@ std::optional<EquationRates> equation_rates(const model::Model& model, const con
     return a.cosine == b.cosine && a.sine == b.sine;
   });
   return rates;
+}
+
+}  // namespace
+
+std::optional<EquationRates> equation_rates(const model::Model& model, const continuation::Vector& p, int k) {
+  // The differences are exact where the equation is at most quadratic in what changes, as it is in its own
+  // numbers, but in no formula.
+  const bool follow = std::any_of(model.formulas.begin(), model.formulas.end(),
+                                  [k](const auto& number) { return number->formula.uses(k); });
+  if (!follow) return rates_along(model, p, k, continuation::Vector::Unit(p.size(), k));
+  const WithoutFormulas all = without_formulas(model, p, k);
+  return rates_along(all.model, all.p, k, all.by);
 }
 
 }  // namespace arcslip::time

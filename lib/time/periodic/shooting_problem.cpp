@@ -57,7 +57,8 @@ MotionState ShootingEvaluator::unstacked_start() const {
 }
 
 Evaluated ShootingEvaluator::move_to(In X, In p, Needs needs) {
-  if (!X.allFinite() || !(p[model::frequency] > 0)) return Evaluated::outside_domain;
+  if (!X.allFinite() || !(p[model::frequency] > 0) || !model::within_bounds(problem_.model(), p))
+    return Evaluated::outside_domain;
   set_parameters(p);
   X_ = X;
   std::optional<EquationRates> rates;
