@@ -156,8 +156,13 @@ KeyGroup<OptimumSettings> of_search(KeyGroup<SearchSettings> group) {
   return within(&OptimumSettings::search, std::move(group));
 }
 
+void visit_limits(const std::string& pointer, DesignVariable& of, const scene::NumberVisitor& visit) {
+  visit(pointer + "/0", of.lower);
+  visit(pointer + "/1", of.upper);
+}
+
 void add_design(KeysOf<OptimumSettings>& keys) {
-  keys.add(of_problem({{{"over", KeyType::parameters, "", "parameters \"part.field\" or ties", "", true,
+  keys.add(of_problem({{{"over", KeyType::parameters, "", "parameters \"part.field\" or constants", "", true,
                          "the design parameters"},
                         with_schema({"bounds", KeyType::other, "parameter", "a pair [lower, upper] for each",
                                      "", true, "lower and upper bound of each"},
@@ -167,7 +172,12 @@ void add_design(KeysOf<OptimumSettings>& keys) {
                        [](const OptimumProblem& problem, std::vector<ParameterUse>& all) {
                          for (ParameterUse& each : taken(problem)) all.push_back(std::move(each));
                        },
-                       drop_from}));
+                       drop_from,
+                       {},
+                       [](OptimumProblem& problem, const scene::NumberVisitor& visit) {
+                         for (std::size_t k = 0; k < problem.over.size(); ++k)
+                           visit_limits("/bounds/" + std::to_string(k), problem.over[k], visit);
+                       }}));
   keys.add(of_problem(window(&OptimumProblem::frequency_from, &OptimumProblem::frequency_to)));
 }
 
@@ -214,11 +224,18 @@ void add_demands(KeysOf<OptimumSettings>& keys) {
                      "uncertain parameters, given by bounds; their worst case counts"},
                     scatter_schema)},
        read_scatter,
-       write_scatter}));
+       write_scatter,
+       {},
+       {},
+       {},
+       [](OptimumProblem& problem, const scene::NumberVisitor& visit) {
+         for (DesignVariable& each : problem.scatter)
+           visit_limits(scene::file::child("/scatter", each.name), each, visit);
+       }}));
 }
 
 KeyGroup<OptimumSettings> along() {
-  return {{{"along", KeyType::followed, "", "a parameter \"part.field\" or a tie", "", false,
+  return {{{"along", KeyType::followed, "", "a parameter \"part.field\" or a constant", "", false,
             "the parameter over which the optimum is continued"},
            with_schema({"from", KeyType::other, "parameter", "within the parameter's bounds", "", false,
                         "first value of that parameter"},
@@ -235,6 +252,13 @@ KeyGroup<OptimumSettings> along() {
           },
           [](const OptimumSettings& settings, std::vector<ParameterUse>& all) {
             if (settings.along) all.push_back({settings.along->name, "which the study goes \"along\""});
+          },
+          {},
+          {},
+          [](OptimumSettings& settings, const scene::NumberVisitor& visit) {
+            if (!settings.along) return;
+            visit("/from", settings.along->lower);
+            visit("/to", settings.along->upper);
           }};
 }
 

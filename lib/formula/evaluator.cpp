@@ -17,6 +17,11 @@ double chained(double adjoint, double derivative) {
 
 // f = x^n, in the order of whole_power().
 void set_powers(const double* x, int n, std::size_t count, double* __restrict f) {
+  if (n == 2 || n == 3) {  // most of all
+    for (std::size_t s = 0; s < count; ++s) f[s] = x[s] * x[s];
+    for (std::size_t s = 0; n == 3 && s < count; ++s) f[s] *= x[s];
+    return;
+  }
   double base[largest_block];
   std::copy_n(x, count, base);
   std::fill_n(f, count, 1.0);
@@ -39,7 +44,21 @@ void for_each(std::size_t count, Function function) {
 Evaluator::Evaluator(const Formula& formula)
     : formula_(formula), varies_(formula.nodes().size()), active_(formula.nodes().size()) {}
 
+bool Evaluator::has_marks(std::span<const InputValues> inputs,
+                          std::span<const Derivative> derivatives) const {
+  return std::equal(inputs.begin(), inputs.end(), marked_inputs_.begin(), marked_inputs_.end(),
+                    [](const InputValues& input, char varies) { return input.varies == (varies != 0); }) &&
+         std::equal(derivatives.begin(), derivatives.end(), marked_derivatives_.begin(),
+                    marked_derivatives_.end(),
+                    [](const Derivative& derivative, int input) { return derivative.input == input; });
+}
+
 void Evaluator::set_marks(std::span<const InputValues> inputs, std::span<const Derivative> derivatives) {
+  if (has_marks(inputs, derivatives)) return;
+  marked_inputs_.clear();
+  for (const InputValues& input : inputs) marked_inputs_.push_back(input.varies);
+  marked_derivatives_.clear();
+  for (const Derivative& derivative : derivatives) marked_derivatives_.push_back(derivative.input);
   const auto nodes = formula_.nodes();
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const Node& node = nodes[n];

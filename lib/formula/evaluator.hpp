@@ -39,6 +39,7 @@ class Evaluator {
                std::span<const Derivative> derivatives = {});
 
  private:
+  bool has_marks(std::span<const InputValues> inputs, std::span<const Derivative> derivatives) const;
   void set_marks(std::span<const InputValues> inputs, std::span<const Derivative> derivatives);
   void compute_values(std::span<const InputValues> inputs, std::size_t from, std::size_t count);
   static void set_values(const Node& node, std::size_t count, double* __restrict f, const double* a,
@@ -51,6 +52,8 @@ class Evaluator {
   const Formula& formula_;
   std::size_t stride_ = 0;             // between the values of two nodes
   std::vector<char> varies_, active_;  // nodes: whether samples differ; whether a derivative goes through it
+  std::vector<char> marked_inputs_;      // for these marks: which inputs vary
+  std::vector<int> marked_derivatives_;  // by which inputs derivatives are taken
   std::vector<double> values_, adjoints_;
 };
 

@@ -139,7 +139,8 @@ std::string dimension_fault(const formula::Formula& formula, std::span<const std
   if (!dimensions.fault().empty()) return dimensions.fault();
   const Dimension& found = dimensions.at(formula.results().front());
   if (!differ(found, dimension_of(wanted))) return {};
-  return "which is " + text_of(found) + ", must be " + text_of(dimension_of(wanted));
+  return "which is " + text_of(found) + ", must be " +
+         (wanted == "-" ? "a pure number" : std::string(wanted));
 }
 
 }  // namespace arcslip::scene

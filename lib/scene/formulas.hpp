@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace arcslip::scene {
 
@@ -17,9 +18,10 @@ std::string parameter_of(const Scene& scene, std::string_view name);
 NumberText read_formula(const Scene& scene, const std::string& text);
 /// With the present values of its parameters.
 double value(const Scene& scene, const NumberText& formula);
-/// Why a parameter may not have this formula, as the end of a message: its value or its dimension. Empty: it
-/// may.
-std::string objection_to(const Scene& scene, std::string_view parameter, const NumberText& formula);
+/// Why a number of a field may not have this formula: its value or its dimension. Empty: it may.
+std::string objection_to(const Scene& scene, const Field& field, const NumberText& formula);
+/// The parameters that a formula follows, itself or through others, and that have none.
+std::vector<std::string> independent_parameters(const Scene& scene, const NumberText& formula);
 
 /// Why a formula has not the dimension of a unit, or adds what has different ones, as the end of a message:
 /// "which adds kg to N/m". Empty if it is right as far as units are known: plain numbers may have any.

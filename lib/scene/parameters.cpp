@@ -46,11 +46,17 @@ struct Slot {
   }
 };
 
+// Of a part that was read without a fault.
+std::span<const Field> known_fields(const Part& part) {
+  const auto fields = part.type != nullptr ? part.fields() : std::span<const Field>();
+  return fields.size() == part.values.size() ? fields : std::span<const Field>();
+}
+
 std::optional<Slot> find_field(const Scene& scene, std::string_view part_name, std::string_view field) {
   for (const auto* section : sections(scene))
     for (const Part& part : *section) {
       if (part.name != part_name) continue;
-      const std::span<const Field> fields = part.fields();
+      const std::span<const Field> fields = known_fields(part);
       for (std::size_t i = 0; i < fields.size(); ++i)
         if (fields[i].name == field) return Slot{nullptr, &part, i};
     }
@@ -136,6 +142,8 @@ void assign(Scene& scene, const Slot& slot, double value, const NumberText* text
       if (text == nullptr || (part.texts.empty() && text->text.empty())) continue;
       part.texts.resize(part.values.size());
       part.texts[slot.field] = *text;
+      if (std::all_of(part.texts.begin(), part.texts.end(), [](const NumberText& t) { return t.text.empty(); }))
+        part.texts.clear();
     }
 }
 
@@ -159,7 +167,13 @@ void change(Scene& scene, const Slot& slot, double value, const NumberText& text
   }
   assign(scene, slot, value, &text);
   for (const auto& [follower, number] : values) assign(scene, follower, number, nullptr);
-  for (Study& study : scene.studies) drop(study, name);
+  for (Study& study : scene.studies) {
+    drop(study, name);
+    for (const auto& [pointer, formula] : study.texts)
+      study.type->settings().visit_numbers(study.settings, [&](const std::string& at, double& number) {
+        if (at == pointer) number = scene::value(scene, formula);
+      });
+  }
 }
 
 // "0.2 mm" in the unit of a field; none: it is no number with a unit.
@@ -182,7 +196,8 @@ std::vector<std::string> parameter_names(const Scene& scene) {
   for (const Constant& constant : scene.constants) names.push_back(constant.name);
   for (const auto* section : sections(scene)) {
     for (const Part& part : *section)
-      for (const Field& field : part.fields()) names.push_back(part.name + '.' + std::string(field.name));
+      for (const Field& field : known_fields(part))
+        names.push_back(part.name + '.' + std::string(field.name));
   }
   return names;
 }
@@ -228,7 +243,7 @@ void set_text(Scene& scene, std::string_view parameter, const std::string& text)
     const NumberText given = read_formula(scene, text);
     if (follows(scene, given, slot.name()))
       throw ParameterError("found " + file::shown(text) + ", which follows itself");
-    if (const std::string why = objection_to(scene, slot.name(), given); !why.empty())
+    if (const std::string why = objection_to(scene, parameter_field(scene, slot.name()), given); !why.empty())
       throw ParameterError(why);
     change(scene, slot, scene::value(scene, given), given);
   } catch (const formula::FormulaError& error) {
@@ -261,8 +276,18 @@ double value(const Scene& scene, const NumberText& formula) {
   return formula.formula->value(inputs);
 }
 
-std::string objection_to(const Scene& scene, std::string_view parameter, const NumberText& formula) {
-  const Field field = parameter_field(scene, parameter);
+std::vector<std::string> independent_parameters(const Scene& scene, const NumberText& formula) {
+  std::vector<std::string> all;
+  for (const std::string& each : formula.parameters) {
+    const NumberText* next = parameter_formula(scene, each);
+    const auto more = next != nullptr ? independent_parameters(scene, *next) : std::vector{each};
+    for (const std::string& parameter : more)
+      if (std::find(all.begin(), all.end(), parameter) == all.end()) all.push_back(parameter);
+  }
+  return all;
+}
+
+std::string objection_to(const Scene& scene, const Field& field, const NumberText& formula) {
   std::vector<std::string> units;
   for (const std::string& each : formula.parameters) units.emplace_back(parameter_field(scene, each).unit);
   const std::string shown = "found " + file::shown(formula.text) + ", ";

@@ -48,11 +48,11 @@ struct Part {
   const PartType* type = nullptr;
   std::vector<Direction> directions;  // of the type's slots; one if it has none
   std::vector<double> values;
-  std::vector<NumberText> texts{};  // of the values, as many as them, or none: all are plain numbers
   int harmonic = 1;                 // excitation only: its harmonic; 0: constant
   Settings options{};               // of the type; empty: its defaults
   double wear_coefficient = 0;      // of elements that dissipate: volume worn for the energy, m^3/J
   bool detailed = true;             // false: an element of a patch of which results have the totals alone
+  std::vector<NumberText> texts{};  // of the values, as many as them, or none: all are plain numbers
 
   std::span<const Field> fields() const;
   /// The formula of a value; null: it is a parameter.
@@ -88,6 +88,8 @@ struct Study {
   ValueLists for_each{};
   bool in_rows = false;      // for_each: the k-th values of all lists together, instead of every combination
   sampling::Plan samples{};  // for_each by distributions, in place of lists
+  /// Numbers of the settings that are formulas, by their JSON pointers in the study.
+  std::vector<std::pair<std::string, NumberText>> texts{};
   friend bool operator==(const Study&, const Study&) = default;
 };
 
@@ -210,7 +212,7 @@ inline constexpr int largest_samples = 1'000'000;  // per period
 inline constexpr std::size_t largest_count =
     5'000'000;  // JSON values in one file, so that memory stays bounded
 
-/// Reads format "arcslip-scene-1". catalogue: the laws of force and the kinds of studies that it may hold, as
+/// Reads format "arcslip-scene-2", and "arcslip-scene-1". catalogue: the laws of force and the kinds of studies that it may hold, as
 /// studies::catalogue(). folder: base of its relative paths. Throws SceneError with every fault found.
 Scene read(std::istream& in, const Catalogue& catalogue, const std::string& folder = {});
 /// The same from a file, with its folder. Throws FileError if the file cannot be read, and SceneError for a

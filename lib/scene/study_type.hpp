@@ -6,6 +6,7 @@
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/scene.hpp>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -18,6 +19,9 @@ namespace arcslip::scene {
 struct ParameterUse {
   std::string parameter, how;
 };
+
+/// Takes a number of a study's settings and its JSON pointer in the study, "/from" or "/frequency/0".
+using NumberVisitor = std::function<void(const std::string& pointer, double& number)>;
 
 /// The keys of settings, whose type only file::KeysOf (scene/keys/study_keys.hpp) knows. Settings that are
 /// empty have the defaults.
@@ -33,6 +37,8 @@ class SettingsKeys {
   virtual void write(const Settings& settings, const Scene& scene, std::vector<file::Member>& to) const = 0;
 
   virtual std::vector<ParameterUse> taken(const Settings& settings) const = 0;
+  /// Visits the numbers that may follow parameters.
+  virtual void visit_numbers(Settings& settings, const NumberVisitor& visit) const = 0;
   /// Removes a parameter from lists of values; the continuation parameter cannot be removed.
   virtual void drop(std::string_view parameter, Settings& settings) const = 0;
 };

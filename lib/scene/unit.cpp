@@ -86,10 +86,10 @@ class UnitReader {
     Unit all;
     if (!factor(all, 1)) return {};
     bool divided = false;
-    for (skip_spaces(); !text_.empty(); skip_spaces()) {
+    for (bool apart = skip_spaces(); !text_.empty(); apart = skip_spaces()) {
       const bool divides = take('/');
       if (!divides && (divided || text_.front() == ')')) return {};  // N/m s: is it N s/m, or N/(m s)?
-      if (!divides) static_cast<void>(take('*') || take("\u00b7"));
+      if (!divides && !take('*') && !take("\u00b7") && !apart) return {};
       divided = divided || divides;
       skip_spaces();
       if (!(divides && take('(') ? group(all) : factor(all, divides ? -1 : 1))) return {};
@@ -108,9 +108,10 @@ class UnitReader {
     text_.remove_prefix(text.size());
     return true;
   }
-  void skip_spaces() {
-    while (take(' ')) {
-    }
+  bool skip_spaces() {
+    bool any = false;
+    while (take(' ')) any = true;
+    return any;
   }
 
   // What is divided by, after its parenthesis.

@@ -43,11 +43,15 @@ KeyGroup<SweepSettings> spacing() {
           [](const Reading& reading, SweepSettings& s) {
             const Location place = reading.keys.find("spacing");
             if (place.node == nullptr) return;
-            s.spacing = read_number(place, reading.frequency, reading.faults).value_or(0);
+            s.spacing = reading.number(place, reading.frequency).value_or(0);
           },
           [](const SweepSettings& s, const scene::Scene&, Node::Object& to) {
             if (s.spacing > 0) to.push_back({"spacing", node(s.spacing)});
-          }};
+          },
+          {},
+          {},
+          {},
+          [](SweepSettings& s, const scene::NumberVisitor& visit) { visit("/spacing", s.spacing); }};
 }
 
 KeyGroup<SweepSettings> points() {

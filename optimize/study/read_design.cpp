@@ -33,14 +33,18 @@ std::vector<std::pair<std::string, double>> read_sum(const Location& place, cons
   for (const DesignVariable& variable : problem.over) known.push_back(variable.name);
   for (const Member* member : members(place, faults)) {
     const Location item{&member->value, child(place.pointer, member->key)};
+    const auto is = [&](const std::string& name) {
+      return std::find(known.begin(), known.end(), name) != known.end();
+    };
+    const std::string name = is(member->key) ? member->key : member->key + ".value";
     if (faults.full()) {
       faults.add({}, {});
-    } else if (std::find(known.begin(), known.end(), member->key) == known.end()) {
+    } else if (!is(name)) {
       faults.add(item.pointer, "found " + shown(member->key) +
                                    ", must be one of the parameters that the study is \"over\", " +
                                    listed(known) + hint(member->key, known));
     } else {
-      weights.emplace_back(member->key, read_number(item, any_number, faults).value_or(0));
+      weights.emplace_back(name, read_number(item, any_number, faults).value_or(0));
     }
   }
   const bool any = std::any_of(weights.begin(), weights.end(), [](auto& each) { return each.second != 0; });
@@ -79,8 +83,8 @@ void read_design(const Reading& reading, OptimumProblem& problem) {
       faults.add(item.pointer, "found " + shown(variable.name) + " again, must be named once");
     if (ranges != nullptr && i < ranges->size()) {
       std::tie(variable.lower, variable.upper) =
-          read_pair({&(*ranges)[i], child(bounds.pointer, i)},
-                    "a pair [lower, upper], each " + allowed_text(field), field, "bound", faults);
+          read_pair(reading, {&(*ranges)[i], child(bounds.pointer, i)},
+                    "a pair [lower, upper], each " + allowed_text(field), field, "bound");
     }
     problem.over.push_back(std::move(variable));
   }
@@ -219,7 +223,7 @@ void read_scatter(const Reading& reading, OptimumProblem& problem) {
     if (faults.count() == before && !is_taken(parameter, item.pointer, already, faults)) {
       DesignVariable& variable = scatter.emplace_back(DesignVariable{parameter});
       std::tie(variable.lower, variable.upper) =
-          read_pair(item, "a pair [lower, upper], each " + allowed_text(field), field, "bound", faults);
+          read_pair(reading, item, "a pair [lower, upper], each " + allowed_text(field), field, "bound");
     }
   }
   problem.scatter = std::move(scatter);

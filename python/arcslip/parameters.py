@@ -19,6 +19,8 @@ class Parameter(Quantity):
     lower_open : bool
         Whether the lower bound itself is not allowed.
     help : str
+    formula : str or None
+        Of other parameters, which the value follows; None where it is a number of its own.
     """
 
     name: str
@@ -26,10 +28,11 @@ class Parameter(Quantity):
     upper: float
     lower_open: bool
     help: str
+    formula: str | None
 
 
 class Parameters(Mapping[str, Parameter]):
-    """The parameters of a scene by name, "part.field" or a tie."""
+    """The parameters of a scene by name, "part.field" or a constant."""
 
     def __init__(self, core: _core.Scene) -> None:
         self._all = {

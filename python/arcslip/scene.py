@@ -114,7 +114,7 @@ class Scene(StudyMethods):
 
     def replace(
         self,
-        values: Mapping[str, float] | None = None,
+        values: Mapping[str, float | str] | None = None,
         /,
         *,
         harmonics: int | None = None,
@@ -125,7 +125,8 @@ class Scene(StudyMethods):
         Parameters
         ----------
         values : mapping, optional
-            Values by the names of parameters.
+            Values by the names of parameters: a number, a text with a unit, "0.2 mm", or a
+            formula of other parameters, "0.12*k".
         harmonics : int, optional
             The highest harmonic; with an accuracy the highest that may be chosen.
         accuracy : float, optional
@@ -134,9 +135,13 @@ class Scene(StudyMethods):
         Raises
         ------
         ParameterError
-            For an unknown parameter, or a value outside its bounds.
+            For an unknown parameter, one that is given by a formula and a number for it, a value
+            outside its bounds, or a formula that is wrong.
         """
-        pairs = [(name, float(value)) for name, value in (values or {}).items()]
+        pairs = [
+            (name, value if isinstance(value, str) else float(value))
+            for name, value in (values or {}).items()
+        ]
         return Scene._of(self._data.replace(pairs, harmonics, accuracy))
 
     def run(

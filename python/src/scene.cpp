@@ -12,6 +12,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace nb = nanobind;
@@ -74,15 +76,24 @@ nb::list parameters(const Scene& scene) {
     each["upper"] = field.upper;
     each["lower_open"] = field.lower_open;
     each["help"] = std::string(field.help);
+    const scene::NumberText* formula = scene::parameter_formula(scene, name);
+    each["formula"] = formula != nullptr ? nb::cast(formula->text) : nb::none();
     all.append(each);
   }
   return all;
 }
 
-Scene replace(const Scene& scene, const std::vector<std::pair<std::string, double>>& values,
+using Value = std::variant<double, std::string>;
+
+Scene replace(const Scene& scene, const std::vector<std::pair<std::string, Value>>& values,
               std::optional<int> order, std::optional<double> accuracy) {
   Scene other = scene;
-  for (const auto& [name, value] : values) scene::set(other, name, value);
+  for (const auto& [name, value] : values) {
+    if (const auto* text = std::get_if<std::string>(&value))
+      scene::set_text(other, name, *text);
+    else
+      scene::set(other, name, std::get<double>(value));
+  }
   if (order || accuracy) {
     other.harmonics.accuracy = accuracy.value_or(0);
     other.harmonics.order = order.value_or(scene::largest_chosen_order);

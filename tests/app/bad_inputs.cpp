@@ -155,7 +155,8 @@ std::vector<BadInput> make() {
             "--over frequency: found \"frequency\", must be another parameter; over the frequency is"),
       peaks("--over nothing", {"--over", ""}, "--over needs the name of a parameter"),
       peaks("--over a tied field", {"--over", "damper.stiffness", "--from", "1", "--to", "2"},
-            "--over damper.stiffness: found \"damper.stiffness\", which is tied; must be its tie \"both\""),
+            "--over damper.stiffness: found \"damper.stiffness\", which is given by the formula \"both\"; "
+            "must be what that follows: \"both\""),
       peaks("--set of the parameter that is varied", {"--set", "damper.normal_load=3"},
             "--set damper.normal_load=3: the study varies this parameter; give --from and --to"),
       peaks("--from below the parameter's bound", {"--from", "-1"},

@@ -201,7 +201,7 @@ class Resolver {
     }
     for (const std::string& parameter : read.parameters)
       if (states_.contains(parameter) && !resolve(parameter)) return false;
-    if (const std::string why = objection_to(scene_, name, read); !why.empty()) {
+    if (const std::string why = objection_to(scene_, parameter_field(scene_, name), read); !why.empty()) {
       fault(place, why);
       return false;
     }

@@ -225,6 +225,7 @@ Node for_each_node(const Study& study) {
 Node study_node(const Study& study, const Scene& scene) {
   Node::Object object = {{"name", node(study.name)}, {"kind", node(study.type->name())}};
   study.type->settings().write(study.settings, scene, object);
+  for (const auto& [pointer, formula] : study.texts) set_at_pointer(object, pointer, node(formula.text));
   object.push_back({"for_each", for_each_node(study)});
   return {std::move(object)};
 }

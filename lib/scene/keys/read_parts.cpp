@@ -94,6 +94,7 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
   }
   const std::size_t before = faults.count();
   if (part.type != nullptr) part.options = read_options(*part.type, place, dofs, source, faults);
+  const bool options_sound = faults.count() == before;
   const Location wear = part.type != nullptr && place.node->get<Node::Object>() != nullptr
                             ? at_pointer(place, "/wear_coefficient")
                             : Location{};
@@ -111,7 +112,7 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
   const auto text = read_string(name, "a string, the name of the part", faults);
   if (text && names.add(*text, name.pointer, faults)) {
     part.name = *text;
-    if (part.type != nullptr)
+    if (part.type != nullptr && (options_sound || !part.type->options_bring_fields()))
       names.set_fields(part.name, part.fields());
     else
       names.set_unknown(part.name);

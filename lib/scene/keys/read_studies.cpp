@@ -1,3 +1,4 @@
+#include <arcslip/scene/formulas.hpp>
 #include <arcslip/scene/keys/read_studies.hpp>
 #include <arcslip/scene/keys/study_keys.hpp>
 
@@ -69,6 +70,25 @@ std::string unused_name(const std::string& wish, std::unordered_map<std::string,
   return name;
 }
 
+// Numbers of a study follow their formulas, but not what the study itself changes.
+void check_followed(Study& study, const std::string& pointer, const Scene& scene, Faults& faults) {
+  std::vector<std::string> followed;
+  study.type->settings().visit_numbers(study.settings,
+                                       [&](const std::string& at, double&) { followed.push_back(at); });
+  std::vector<ParameterUse> changed = study.type->settings().taken(study.settings);
+  for (const auto& list : study.for_each) changed.push_back({list.first, "which \"for_each\" changes"});
+  for (const auto& [at, formula] : study.texts) {
+    if (std::find(followed.begin(), followed.end(), at) == followed.end())
+      faults.add(pointer + at,
+                 "found " + shown(formula.text) + ", a formula of parameters, must be a number");
+    for (const std::string& parameter : independent_parameters(scene, formula))
+      for (const ParameterUse& each : changed)
+        if (each.parameter == parameter)
+          faults.add(pointer + at, "found " + shown(formula.text) + ", which follows " + shown(parameter) +
+                                       ", " + each.how + "; must be a number");
+  }
+}
+
 }  // namespace
 
 Field frequency_field(FrequencyUnit unit) {
@@ -112,8 +132,10 @@ std::vector<Study> read_studies(const Location& place, FrequencyUnit unit, const
       }
       study.name = *text;
     }
-    study.settings = study.type->settings().read({keys, frequency, all, dofs, faults, source});
+    const Parameters with_texts{all.scene, all.constants_complete, all.names, &study.texts};
+    study.settings = study.type->settings().read({keys, frequency, with_texts, dofs, faults, source});
     read_for_each(keys.find("for_each"), all, study.type->settings().taken(study.settings), study, faults);
+    check_followed(study, item.pointer, all.scene, faults);
     studies.push_back(std::move(study));
   }
   std::unordered_map<std::string, int> next;

@@ -57,14 +57,38 @@ std::optional<NamedFile> read_file_of(const Location& place, const std::string& 
 
 std::pair<double, double> read_range(const Reading& reading, const Field& field) {
   const std::string wanted = allowed_text(field);
-  const auto from = read_number(reading.keys.require("from", wanted, reading.faults), field, reading.faults);
+  const auto from = reading.number(reading.keys.require("from", wanted, reading.faults), field);
   const Location to_place = reading.keys.require("to", wanted, reading.faults);
-  const auto to = read_number(to_place, field, reading.faults);
+  const auto to = reading.number(to_place, field);
   if (from && to && !(*from < *to)) {
     reading.faults.add(to_place.pointer, "found " + number_text(*to) + ", must be above \"from\", which is " +
                                              with_unit(*from, field));
   }
   return {from.value_or(0), to.value_or(0)};
+}
+
+std::pair<double, double> read_pair(const Reading& reading, const Location& place, const std::string& wanted,
+                                    const Field& field, std::string_view what) {
+  Faults& faults = reading.faults;
+  const Node::List* list = read_list(place, wanted, faults);
+  if (list == nullptr) return {};
+  if (list->size() != 2) {
+    faults.add(place.pointer, "found a list of " + std::to_string(list->size()) + ", must be " + wanted);
+    return {};
+  }
+  const auto lower = reading.number({&list->front(), child(place.pointer, std::size_t{0})}, field);
+  const auto upper = reading.number({&list->back(), child(place.pointer, std::size_t{1})}, field);
+  if (lower && upper && !(*lower < *upper)) {
+    faults.add(child(place.pointer, std::size_t{1}), "found " + number_text(*upper) +
+                                                         ", must be above the lower " + std::string(what) +
+                                                         ", which is " + with_unit(*lower, field));
+  }
+  return {lower.value_or(0), upper.value_or(0)};
+}
+
+void visit_pair(const std::string& pointer, std::pair<double, double>& both, const NumberVisitor& visit) {
+  visit(pointer + "/0", both.first);
+  visit(pointer + "/1", both.second);
 }
 
 KeyGroup<std::pair<double, double>> frequency_range() {
@@ -77,6 +101,13 @@ KeyGroup<std::pair<double, double>> frequency_range() {
           },
           [](const std::pair<double, double>& range, const Scene&, Node::Object& to) {
             write_range(range.first, range.second, to);
+          },
+          {},
+          {},
+          {},
+          [](std::pair<double, double>& range, const NumberVisitor& visit) {
+            visit("/from", range.first);
+            visit("/to", range.second);
           }};
 }
 
@@ -99,6 +130,12 @@ KeyGroup<RangeOver> range_over() {
           },
           [](const RangeOver& range, std::vector<ParameterUse>& all) {
             if (!range.over.empty()) all.push_back({range.over, "which the study is \"over\""});
+          },
+          {},
+          {},
+          [](RangeOver& range, const NumberVisitor& visit) {
+            visit("/from", range.from);
+            visit("/to", range.to);
           }};
 }
 
@@ -109,12 +146,18 @@ KeyGroup<std::pair<double, double>> window() {
             const std::string wanted =
                 "a window [lower, upper] of two frequencies, each " + allowed_text(reading.frequency);
             const Location place = reading.keys.require("frequency", wanted, reading.faults);
-            ends = read_pair(place, wanted, reading.frequency, "end", reading.faults);
+            ends = read_pair(reading, place, wanted, reading.frequency, "end");
             check_frequency(ends.first, child(place.pointer, std::size_t{0}), reading);
             check_frequency(ends.second, child(place.pointer, std::size_t{1}), reading);
           },
           [](const std::pair<double, double>& ends, const Scene&, Node::Object& to) {
             to.push_back({"frequency", node(std::vector{ends.first, ends.second})});
+          },
+          {},
+          {},
+          {},
+          [](std::pair<double, double>& ends, const NumberVisitor& visit) {
+            visit_pair("/frequency", ends, visit);
           }};
 }
 
@@ -124,11 +167,17 @@ KeyGroup<std::pair<double, double>> window_of(const Field& field, std::string he
             std::move(help)}},
           [=](const Reading& reading, std::pair<double, double>& ends) {
             const std::string wanted = "two values [from, to], each " + allowed_text(field);
-            ends = read_pair(reading.keys.require(name, wanted, reading.faults), wanted, field, "end",
-                             reading.faults);
+            ends =
+                read_pair(reading, reading.keys.require(name, wanted, reading.faults), wanted, field, "end");
           },
           [=](const std::pair<double, double>& ends, const Scene&, Node::Object& to) {
             to.push_back({name, node(std::vector{ends.first, ends.second})});
+          },
+          {},
+          {},
+          {},
+          [=](std::pair<double, double>& ends, const NumberVisitor& visit) {
+            visit_pair('/' + name, ends, visit);
           }};
 }
 
@@ -140,12 +189,16 @@ KeyGroup<double> one_frequency(std::string help) {
             frequency = 0;
             if (place.node != nullptr && place.node->get<Node::List>() != nullptr)
               return add_wrong_type(place, wanted, reading.faults);
-            frequency = read_number(place, reading.frequency, reading.faults).value_or(0);
+            frequency = reading.number(place, reading.frequency).value_or(0);
             check_frequency(frequency, place.pointer, reading);
           },
           [](const double& frequency, const Scene&, Node::Object& to) {
             to.push_back({"frequency", node(frequency)});
-          }};
+          },
+          {},
+          {},
+          {},
+          [](double& frequency, const NumberVisitor& visit) { visit("/frequency", frequency); }};
 }
 
 KeyGroup<double> number(const Field& field, double otherwise, std::string help) {
@@ -153,9 +206,13 @@ KeyGroup<double> number(const Field& field, double otherwise, std::string help) 
   return {{{name, KeyType::number, std::string(field.unit), allowed_text(field), json_text(node(otherwise)),
             false, std::move(help), field.lower, field.upper, field.lower_open}},
           [=](const Reading& reading, double& value) {
-            value = read_number(reading.keys.find(name), field, reading.faults).value_or(value);
+            value = reading.number(reading.keys.find(name), field).value_or(value);
           },
-          [=](const double& value, const Scene&, Node::Object& to) { to.push_back({name, node(value)}); }};
+          [=](const double& value, const Scene&, Node::Object& to) { to.push_back({name, node(value)}); },
+          {},
+          {},
+          {},
+          [=](double& value, const NumberVisitor& visit) { visit('/' + name, value); }};
 }
 
 KeyGroup<int> whole(const std::string& name, int otherwise, int lower, int upper, std::string help) {

@@ -30,6 +30,11 @@ struct Reading {
   const Dofs& dofs;
   Faults& faults;
   const FileSource& source;
+
+  /// A number that may be a formula, which it follows from then on.
+  std::optional<double> number(const Location& place, const Field& field) const {
+    return read_followed_number(place, field, keys.pointer(), parameters, faults);
+  }
 };
 
 /// Some keys of a study that are read and written together.
@@ -42,6 +47,7 @@ struct KeyGroup {
       taken{};                                                       // parameters with values in these keys
   std::function<void(std::string_view, Settings&)> drop{};           // a parameter from lists of values
   std::function<void(Settings&, std::vector<NamedFile*>&)> files{};  // that are named here
+  std::function<void(Settings&, const NumberVisitor&)> numbers{};    // that may follow parameters
 };
 
 /// A part of the settings as a group of its own: settings within settings, or a single value.
@@ -65,6 +71,10 @@ KeyGroup<S> within(Part S::*part, KeyGroup<Part> group) {
     all.files = [part, of = std::move(group.files)](S& s, std::vector<NamedFile*>& files) {
       of(s.*part, files);
     };
+  if (group.numbers)
+    all.numbers = [part, of = std::move(group.numbers)](S& s, const NumberVisitor& visit) {
+      of(s.*part, visit);
+    };
   return all;
 }
 
@@ -79,11 +89,26 @@ KeyGroup<S> within(double S::*first, double S::*second, KeyGroup<std::pair<doubl
           },
           [=, write = std::move(group.write)](const S& s, const Scene& scene, Node::Object& to) {
             write({s.*first, s.*second}, scene, to);
+          },
+          {},
+          {},
+          {},
+          [=, numbers = std::move(group.numbers)](S& s, const NumberVisitor& visit) {
+            std::pair<double, double> both{s.*first, s.*second};
+            numbers(both, visit);
+            std::tie(s.*first, s.*second) = both;
           }};
 }
 
 // Standard groups of keys, defined by the targets of their values: of a value alone, which is compiled once,
 // and of members of settings. A missing or invalid value leaves its target unchanged.
+
+/// A pair [lower, upper] of values of a field, lower < upper; zeros after a fault. what: the noun in
+/// messages, "bound".
+std::pair<double, double> read_pair(const Reading& reading, const Location& place, const std::string& wanted,
+                                    const Field& field, std::string_view what);
+/// Visits both numbers of a list at a pointer.
+void visit_pair(const std::string& pointer, std::pair<double, double>& both, const NumberVisitor& visit);
 
 /// "from" and "to" of a field, from < to.
 std::pair<double, double> read_range(const Reading& reading, const Field& field);
@@ -115,6 +140,13 @@ KeyGroup<S> range_over(std::string S::*over, double S::*from, double S::*to) {
           },
           [=, taken = std::move(range.taken)](const S& s, std::vector<ParameterUse>& all) {
             taken({s.*over, s.*from, s.*to}, all);
+          },
+          {},
+          {},
+          [=, numbers = std::move(range.numbers)](S& s, const NumberVisitor& visit) {
+            RangeOver all{s.*over, s.*from, s.*to};
+            numbers(all, visit);
+            std::tie(s.*from, s.*to) = std::tie(all.from, all.to);
           }};
 }
 
@@ -228,6 +260,10 @@ class KeysOf final : public SettingsKeys {
   void drop(std::string_view parameter, Settings& settings) const override {
     for (const auto& group : groups_)
       if (group.drop && !settings.empty()) group.drop(parameter, settings.as<S>());
+  }
+  void visit_numbers(Settings& settings, const NumberVisitor& visit) const override {
+    for (const auto& group : groups_)
+      if (group.numbers && !settings.empty()) group.numbers(settings.as<S>(), visit);
   }
   std::vector<NamedFile*> files(Settings& settings) const override {
     std::vector<NamedFile*> all;

@@ -109,8 +109,29 @@ std::optional<Field> field_of(std::string& parameter, const std::string& pointer
   return is_constant ? parameter_field(all.scene, parameter) : *field;
 }
 
+std::optional<double> read_followed_number(const Location& place, const Field& field,
+                                           const std::string& study, const Parameters& all, Faults& faults) {
+  const auto given = read_given_number(place, field, faults);
+  if (!given) return {};
+  if (!given->follows) return given->value;
+  if (all.texts == nullptr) return read_number(place, field, faults);  // which says so
+  try {
+    NumberText formula = read_formula(all.scene, given->text);
+    if (const std::string why = objection_to(all.scene, field, formula); !why.empty()) {
+      faults.add(place.pointer, why);
+      return {};
+    }
+    all.texts->emplace_back(place.pointer.substr(study.size()), formula);
+    return value(all.scene, formula);
+  } catch (const formula::FormulaError& error) {
+    if (!all.names.may_exist(error.fault().name))
+      add_formula_fault(error, place.pointer, known_parameters(all), faults);
+  }
+  return {};
+}
+
 std::string with_unit(double value, const Field& field) {
-  return number_text(value) + (field.unit == "-" ? "" : " " + std::string(field.unit));
+  return number_text(value) + (field.unit == "-" || field.unit.empty() ? "" : " " + std::string(field.unit));
 }
 
 Field bounds_of(std::string& parameter, const std::string& pointer, const Parameters& all, Faults& faults) {
@@ -264,24 +285,6 @@ std::vector<std::pair<std::string, std::string>> read_labels(const Location& pla
     labels.emplace_back(axis, text.value_or(""));
   }
   return labels;
-}
-
-std::pair<double, double> read_pair(const Location& place, const std::string& wanted, const Field& field,
-                                    std::string_view what, Faults& faults) {
-  const Node::List* list = read_list(place, wanted, faults);
-  if (list == nullptr) return {};
-  if (list->size() != 2) {
-    faults.add(place.pointer, "found a list of " + std::to_string(list->size()) + ", must be " + wanted);
-    return {};
-  }
-  const auto lower = read_number({&list->front(), child(place.pointer, std::size_t{0})}, field, faults);
-  const auto upper = read_number({&list->back(), child(place.pointer, std::size_t{1})}, field, faults);
-  if (lower && upper && !(*lower < *upper)) {
-    faults.add(child(place.pointer, std::size_t{1}), "found " + number_text(*upper) +
-                                                         ", must be above the lower " + std::string(what) +
-                                                         ", which is " + with_unit(*lower, field));
-  }
-  return {lower.value_or(0), upper.value_or(0)};
 }
 
 }  // namespace arcslip::scene::file

@@ -18,6 +18,8 @@ struct Parameters {
   const Scene& scene;       // its parts and constants
   bool constants_complete;  // otherwise others may exist
   const Names& names;
+  /// Where the formulas of a study's numbers go, by their pointers in it; null: it may have none.
+  std::vector<std::pair<std::string, NumberText>>* texts = nullptr;
 };
 /// Where there are none.
 const Parameters& no_parameters();
@@ -32,10 +34,9 @@ Field bounds_of(std::string& parameter, const std::string& pointer, const Parame
 /// The continuation parameter of a study, and its bounds; unbounded after a fault.
 Field read_parameter(const Location& place, const Parameters& all, std::string& parameter, Faults& faults);
 
-/// A pair [lower, upper] of values of a field, lower < upper; zeros after a fault. what: the noun in
-/// messages, "bound".
-std::pair<double, double> read_pair(const Location& place, const std::string& wanted, const Field& field,
-                                    std::string_view what, Faults& faults);
+/// A number of a study, which follows its parameters if it is a formula. study: the pointer of the study.
+std::optional<double> read_followed_number(const Location& place, const Field& field,
+                                           const std::string& study, const Parameters& all, Faults& faults);
 
 /// Lists of values by parameter name, each within the bounds of its fields. A parameter that is already used
 /// is a fault.

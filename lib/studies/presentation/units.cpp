@@ -8,7 +8,8 @@
 namespace arcslip::studies {
 
 std::string parameter_unit(const scene::Scene& scene, std::string_view parameter) {
-  return std::string(scene::parameter_field(scene, parameter).unit);
+  const std::string_view unit = scene::parameter_field(scene, parameter).unit;
+  return unit.empty() ? "-" : std::string(unit);
 }
 
 results::Object named(const scene::Scene& scene, const NamedValues& values) {

@@ -107,10 +107,9 @@ TEST_CASE("the same holds for the paper's oscillator from full slip to full stic
 TEST_CASE("a tie is one parameter whose derivative is the sum over its members") {
   scene::Scene s = scenes::chain(3, false);
   scene::set(s, "d2.normal_load", 0.9);
-  s.ties.push_back({"load", {"d1.normal_load", "d2.normal_load"}});
-  const auto tied = std::make_shared<const model::Model>(model::build(s));
-  s.ties.clear();
   const auto apart = std::make_shared<const model::Model>(model::build(s));
+  scenes::tie(s, "load", {"d1.normal_load", "d2.normal_load"});
+  const auto tied = std::make_shared<const model::Model>(model::build(s));
   CHECK(tied->parameters.size() + 1 == apart->parameters.size());
   const hbm::HbmProblem one(tied, tied->harmonics, 1, 1), two(apart, apart->harmonics, 1, 1);
   const Vector u = 3 * Vector::Random(one.size());

@@ -143,7 +143,7 @@ double residual_of_motion(const hbm::ModeProblem& problem, const Vector& u, doub
       R += at.motion().element(e).force().segment(static_cast<Eigen::Index>(i) * h.size(), h.size()) *
            Eigen::RowVectorXd(Vector(model.elements[e].directions[i]).transpose());
   for (const auto& load : model.excitation)
-    R.row(0) -= p[load.cosine] * Eigen::RowVectorXd(Vector(load.direction).transpose());
+    R.row(0) -= load.cosine.value(p) * Eigen::RowVectorXd(Vector(load.direction).transpose());
   return R.cwiseAbs().maxCoeff() / (x * K).cwiseAbs().maxCoeff();
 }
 

@@ -64,6 +64,15 @@ inline scene::Scene example(const std::string& name) {
   return scene::read_file(source_folder() + "/examples/" + name + "/scene.json", test_catalogue::whole());
 }
 
+/// Fields with one value, which a new constant sets.
+inline void tie(scene::Scene& s, const std::string& name, const std::vector<std::string>& fields) {
+  s.constants.push_back({.name = name,
+                         .value = scene::value(s, fields.front()),
+                         .lower = -scene::infinity,
+                         .upper = scene::infinity});
+  for (const std::string& field : fields) scene::set_text(s, field, name);
+}
+
 /// The paper's oscillator with one load.
 inline scene::Scene paper(int order, double load = 3) {
   scene::Scene s = example("al_sayed_2011");

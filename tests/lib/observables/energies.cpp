@@ -83,7 +83,7 @@ TEST_CASE("what the excitation puts in, friction and dampers take out, at every 
   forces.excitation.back().values = {0.3, -0.5};
   all.emplace_back("two forces", forces);
   scene::Scene tied = scenes::chain(5, false);
-  tied.ties.push_back({"friction", {"d1.normal_load", "d2.normal_load"}});
+  scenes::tie(tied, "friction", {"d1.normal_load", "d2.normal_load"});
   scene::set(tied, "friction", 0.6);
   all.emplace_back("tied loads", tied);
   scene::Scene sampled = scenes::paper(7, 3);

@@ -62,7 +62,7 @@ TEST_CASE(
           };
           for (const auto& mass : of_parts.masses) {
             const Vector d = in_ring(mass.direction, mass.next);
-            M += p[mass.parameter] * d * d.transpose();
+            M += mass.number.value(p) * d * d.transpose();
           }
           const Vector d = in_ring(model.elements[0].directions[0], model.elements[0].next[0]);
           if (j == 0) first = d;

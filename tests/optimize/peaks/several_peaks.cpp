@@ -51,7 +51,7 @@ TEST_CASE("two dampers: without gradients the same optimum comes out, and with a
   CHECK(by_models.amplitude == Approx(best).epsilon(1e-4));
 
   scene::Scene tied = s;
-  tied.ties = {{"load", {"d0.normal_load", "d1.normal_load"}}};
+  scenes::tie(tied, "load", {"d0.normal_load", "d1.normal_load"});
   const Optimum one = optimize::optimum(tied, {{{"load", 0.05, 50}}, 8, 45}, {.certificate = false});
   CHECK(one.status == observables::Status::complete);
   CHECK(one.amplitude > best);

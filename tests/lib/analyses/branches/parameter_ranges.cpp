@@ -53,7 +53,7 @@ std::vector<std::vector<Value>> values(const Scene& s) {
   constexpr double factors[] = {1e-30, 1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e12, 1e30};
   std::vector<std::vector<Value>> all;
   for (const std::string& each : parameters(s)) {
-    const scene::Field& field = *scene::parameter_fields(s, each).front();
+    const scene::Field field = scene::parameter_field(s, each);
     const double own = scene::value(s, each);
     std::vector<Value> of_one;
     if (allowed(field, 0)) of_one.push_back({each, 0});
@@ -148,7 +148,7 @@ Named random(std::uint64_t seed) {
   const Family family = families[seed % std::size(families)];
   Scene s = base(family);
   for (const std::string& each : parameters(s)) {
-    const scene::Field& field = *scene::parameter_fields(s, each).front();
+    const scene::Field field = scene::parameter_field(s, each);
     const double own = scene::value(s, each);
     const bool vanishes = random.one_in(30) && field.unit != "kg", far = random.one_in(12),
                reversed = random.one_in(2);

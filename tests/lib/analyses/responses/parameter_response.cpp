@@ -121,7 +121,7 @@ TEST_CASE("over a tie both of its fields change") {
   s.elements.push_back(s.elements.front());
   s.elements.back().name = "second";
   for (auto& element : s.elements) element.values[0] = 1750;
-  s.ties.push_back({"loads", {"damper.normal_load", "second.normal_load"}});
+  scenes::tie(s, "loads", {"damper.normal_load", "second.normal_load"});
   const auto halves = observables::parameter_response(s, parameter_range("loads", 20, 0.5, 1.5)).front();
   const auto whole =
       observables::parameter_response(scenes::paper(7), parameter_range("damper.normal_load", 20, 1, 3))

@@ -228,8 +228,9 @@ struct FullEquation {
     for (std::size_t k = 0; k < model.parameters.size(); ++k)
       p[static_cast<Eigen::Index>(k)] = model.parameters[k].value;
     p[model::frequency] = 40;
-    p[model.excitation.front().sine] = 0.4;
-    for (const auto& damper : model.dampers) p[damper.parameter] *= 50;  // so that resonances are wide
+    p[model.excitation.front().sine.parameter()] = 0.4;
+    for (const auto& damper : model.dampers)
+      p[damper.number.parameter()] *= 50;  // so that resonances are wide
   }
   bool condense(hbm::Condensation& condensation, int n, const Vector& at, hbm::Condensed& into) {
     Eigen::VectorXcd f(model.dofs);
@@ -276,10 +277,11 @@ TEST_CASE("a condensed equation and what is observed change with parameters as t
     const Eigen::VectorXcd q = y.head(row.unknowns);
     const auto& force = full.model.excitation.front();
     const int last = row.dofs - 1;
-    for (const int k : {model::frequency, full.model.masses.front().parameter,
-                        full.model.masses[static_cast<std::size_t>(last)].parameter,
-                        full.model.dampers[static_cast<std::size_t>(last / 2)].parameter,
-                        full.model.springs[1].parameter, force.cosine, force.sine}) {
+    for (const int k :
+         {model::frequency, full.model.masses.front().number.parameter(),
+          full.model.masses[static_cast<std::size_t>(last)].number.parameter(),
+          full.model.dampers[static_cast<std::size_t>(last / 2)].number.parameter(),
+          full.model.springs[1].number.parameter(), force.cosine.parameter(), force.sine.parameter()}) {
       CAPTURE(row.dofs, row.unknowns, full.model.parameters[static_cast<std::size_t>(k)].name);
       // The condensed residual at q and, last, what is observed.
       const auto at = [&](double value) {

@@ -237,7 +237,7 @@ TEST_CASE("with fixed-interface modes a structure on a moving ground is the same
     p[model::frequency] = omega;
     CHECK((modal.at(p, u) - direct.at(p, u)).cwiseAbs().maxCoeff() < 1e-9);
   }
-  p[modal.model->springs[4].parameter] *= 3;  // a change next to the modes
+  p[modal.model->springs[4].number.parameter()] *= 3;  // a change next to the modes
   CHECK((modal.at(p, u) - direct.at(p, u)).cwiseAbs().maxCoeff() < 1e-9);
 }
 
@@ -249,13 +249,13 @@ TEST_CASE("parts that change next to the modes are exact, a few by their rank an
   p[model::frequency] = 47;
   const model::Model& m = *modal.model;
   const auto check = [&] { CHECK((modal.at(p, u) - direct.at(p, u)).cwiseAbs().maxCoeff() < 1e-9); };
-  p[m.springs[4].parameter] = 0;
-  p[m.springs[12].parameter] *= 1e3;
+  p[m.springs[4].number.parameter()] = 0;
+  p[m.springs[12].number.parameter()] *= 1e3;
   check();
-  p[m.masses[3].parameter] *= 30;
-  p[m.dampers[1].parameter] = 500;
+  p[m.masses[3].number.parameter()] *= 30;
+  p[m.dampers[1].number.parameter()] = 500;
   check();
-  for (const auto& spring : m.springs) p[spring.parameter] *= 1.1;
+  for (const auto& spring : m.springs) p[spring.number.parameter()] *= 1.1;
   check();
   p.segment(1, p.size() - 1) = model::defaults(m).tail(p.size() - 1);  // and back
   check();

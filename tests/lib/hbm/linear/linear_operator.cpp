@@ -21,8 +21,8 @@ struct Chain {
   Vector p;
 
   explicit Chain(bool matrices = false) {
-    const int tied = model.masses[0].parameter;
-    model.dampers[1].parameter = model.springs[2].parameter = tied;
+    const int tied = model.masses[0].number.parameter();
+    model.dampers[1].number = model.springs[2].number = tied;
     model.excitation[0].cosine = model.excitation[0].sine = tied;
     p.resize(static_cast<Eigen::Index>(model.parameters.size()));
     for (std::size_t k = 0; k < model.parameters.size(); ++k)
@@ -37,7 +37,7 @@ struct Chain {
       const Eigen::MatrixXd A = Eigen::MatrixXd::Random(3, 3);
       return std::make_shared<const Eigen::MatrixXd>(A + A.transpose());
     };
-    const int tied = model.masses[0].parameter;
+    const int tied = model.masses[0].number.parameter();
     model.matrices = {{model::LinearKind::mass, -1, random()},
                       {model::LinearKind::damper, tied, random()},
                       {model::LinearKind::spring, -1, random()},
@@ -60,8 +60,8 @@ struct Chain {
     const auto matrix = [&](model::LinearKind kind) {
       return model::sum_of(model, kind, at).cast<Complex>().eval();
     };
-    const double alpha = model.damping ? at[model.damping->alpha] : 0;
-    const double loss = model.damping ? s * at[model.damping->beta] + at[model.damping->loss_factor] : 0;
+    const double alpha = model.damping ? model.damping->alpha_at(at) : 0;
+    const double loss = model.damping ? s * model.damping->beta_at(at) + model.damping->loss_factor_at(at) : 0;
     return Complex(1, loss) * matrix(model::LinearKind::spring) +
            Complex(-s * s, s * alpha) * matrix(model::LinearKind::mass) +
            Complex(0, s) * matrix(model::LinearKind::damper);
@@ -72,7 +72,7 @@ struct Chain {
       if (force.harmonic == n) {
         Vector shape = force.direction;
         if (force.load.size() > 0) shape += force.load;
-        f += Complex(at[force.cosine], -at[force.sine]) * (force.imaginary ? Complex(0, 1) : 1.0) * shape;
+        f += Complex(force.cosine.value(at), -force.sine.value(at)) * (force.imaginary ? Complex(0, 1) : 1.0) * shape;
       }
     return f;
   }

@@ -84,8 +84,8 @@ inline model::Model in_matrices(model::Model model, int of_which) {
       }
       const continuation::Vector next = parts[k].next.size() > 0 ? continuation::Vector(parts[k].next)
                                                                  : continuation::Vector::Zero(model.dofs);
-      model.matrices.push_back(
-          Reaching::of(parts[k].direction, next).part(kind, parts[k].parameter, model.sector->count));
+      model.matrices.push_back(Reaching::of(parts[k].direction, next)
+                                   .part(kind, parts[k].number.parameter(), model.sector->count));
     }
     parts = rest;
   };

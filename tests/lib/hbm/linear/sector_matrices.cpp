@@ -84,7 +84,7 @@ struct Random {
       for (const auto& part : all) {
         Eigen::VectorXcd d = Vector(part.direction).cast<Complex>();
         if (part.next.size() > 0) d += t * Vector(part.next);
-        each(kind, Eigen::MatrixXcd(at[part.parameter] * d.conjugate() * d.transpose()));
+        each(kind, Eigen::MatrixXcd(part.number.value(at) * d.conjugate() * d.transpose()));
       }
     };
     parts(LinearKind::mass, model.masses);
@@ -275,7 +275,7 @@ TEST_CASE("the highest natural frequency of a sector with gyroscopic matrices is
         for (const auto& part : parts) {
           Eigen::VectorXcd along = Vector(part.direction).cast<Complex>();
           if (part.next.size() > 0) along += t * Vector(part.next);
-          all += p[part.parameter] * along.conjugate() * along.transpose();
+          all += part.number.value(p) * along.conjugate() * along.transpose();
         }
         return all;
       };

@@ -54,7 +54,7 @@ Matrices matrices(const scene::Scene& s) {
   Matrices all{model::mass_matrix(model, p), model::stiffness_matrix(model, p),
                Eigen::VectorXcd::Zero(model.dofs), model.response};
   for (const auto& force : model.excitation)
-    if (force.harmonic == 1) all.f += Complex(p[force.cosine], -p[force.sine]) * Vector(force.direction);
+    if (force.harmonic == 1) all.f += Complex(force.cosine.value(p), -force.sine.value(p)) * Vector(force.direction);
   return all;
 }
 

@@ -70,8 +70,8 @@ TEST_CASE("a formula has its parameters as fields, and is written as it was read
   REQUIRE(s.elements.size() == 1);
   CHECK(s.elements[0].values == std::vector<double>{4, 0.1});
   CHECK(scene::value(s, "e.k") == 4);
-  CHECK(scene::parameter_fields(s, "e.k")[0]->unit == "N");
-  CHECK(scene::parameter_fields(s, "e.c")[0]->unit == "-");
+  CHECK(scene::parameter_field(s, "e.k").unit == "N");
+  CHECK(scene::parameter_field(s, "e.c").unit == "-");
   const std::string text = scene::write(s);
   CHECK(text.find(R"("force": "k*sin(q) + c*v^3")") != std::string::npos);
   CHECK(text.find(R"("parameters": {"k": {"value": 4, "unit": "N"}, "c": 0.1})") != std::string::npos);

@@ -125,7 +125,7 @@ TEST_CASE("the terms of a potential are parameters, which are set and written, w
   CHECK(s.elements[0].directions.size() == 2);
   CHECK(scene::value(s, "s.v1") == 0.5);
   CHECK(scene::value(s, "s.v2") == 2);
-  CHECK(scene::parameter_fields(s, "s.v1")[0]->unit == "J/m^4");
+  CHECK(scene::parameter_field(s, "s.v1").unit == "J/m^4");
   CHECK(scenes::parse(scene::write(s)) == s);
   scene::Scene changed = s;
   scene::set(changed, "s.v2", 3);

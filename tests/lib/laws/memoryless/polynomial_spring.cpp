@@ -124,7 +124,7 @@ TEST_CASE("coefficients of the powers in a scene are parameters, which are set, 
   CHECK(scene::value(s, "s.c2") == 0.1);
   CHECK(scene::value(s, "s.c3") == 0.7);
   CHECK_THROWS_AS(scene::value(s, "s.c4"), scene::ParameterError);
-  CHECK(scene::parameter_fields(s, "s.c3")[0]->unit == "N/m^3");
+  CHECK(scene::parameter_field(s, "s.c3").unit == "N/m^3");
   CHECK(scenes::parse(scene::write(s)) == s);
   scene::Scene changed = s;
   scene::set(changed, "s.c3", 0.4);

@@ -41,8 +41,8 @@ void add_bad_designs(std::vector<BadScene>& rows) {
       "\"k.value\"");
   constraint("sum of a misspelt parameter", R"({"sum": {"d.normal_laod": 1}, "at_most": 1})",
              "/sum/d.normal_laod", "did you mean \"d.normal_load\"?");
-  constraint("sum with a weight that is no number", R"({"sum": {"k.value": "1"}, "at_most": 1})",
-             "/sum/k.value", "found \"1\" (a string), must be a finite number");
+  constraint("sum with a weight that is no number", R"({"sum": {"k.value": [1]}, "at_most": 1})",
+             "/sum/k.value", "found a list, must be a finite number");
   constraint("sum of nothing", R"({"sum": {}, "at_most": 1})", "/sum",
              "found no weight other than 0, must have one for at least one of \"d.normal_load\"");
   constraint("sum with weights of zero", R"({"sum": {"k.value": 0}, "at_most": 1})", "/sum",

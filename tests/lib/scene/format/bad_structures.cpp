@@ -56,8 +56,8 @@ void add_places(std::vector<BadScene>& rows) {
                   "found 2 (a number), must be a string, the name of a degree of freedom"});
   rows.push_back({"direction that is no object", good_scene_with(place, "\"direction\": [1]"),
                   "/structure/springs/0/direction", "found a list, must be an object"});
-  rows.push_back({"weight that is no number", good_scene_with(place, "\"direction\": {\"a\": \"1\"}"),
-                  "/structure/springs/0/direction/a", "found \"1\" (a string), must be a finite number"});
+  rows.push_back({"weight that is no number", good_scene_with(place, "\"direction\": {\"a\": [1]}"),
+                  "/structure/springs/0/direction/a", "found a list, must be a finite number"});
   rows.push_back({"no place", good_scene_with(place + ",", ""), "/structure/springs/0",
                   "found no place, must have exactly one of \"at\", \"between\", \"direction\""});
   rows.push_back({"two places", good_scene_with(place, place + ", \"at\": \"a\""), "/structure/springs/0",
@@ -101,8 +101,8 @@ void add_parts(std::vector<BadScene>& rows) {
                   "found the name \"k\" again, which is also at /structure/masses/0/name"});
   rows.push_back({"no value", good_scene_with(", \"value\": 1}", "}"), "/structure/masses/0/value",
                   "found no key \"value\", which is required: must be at least 0 kg"});
-  rows.push_back({"value that is no number", good_scene_with("\"value\": 1}", "\"value\": \"1\"}"),
-                  "/structure/masses/0/value", "found \"1\" (a string), must be a number, at least 0 kg"});
+  rows.push_back({"value that is no number", good_scene_with("\"value\": 1}", "\"value\": [1]}"),
+                  "/structure/masses/0/value", "found a list, must be a number, at least 0 kg"});
   rows.push_back({"negative mass", good_scene_with("\"value\": 1}", "\"value\": -1.24}"),
                   "/structure/masses/0/value", "found -1.24, must be at least 0 kg"});
   rows.push_back({"mass of 1e999 kg", good_scene_with("\"value\": 1}", "\"value\": 1e999}"),

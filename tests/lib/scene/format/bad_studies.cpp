@@ -59,8 +59,8 @@ void add_studies(std::vector<BadScene>& rows) {
       {"no to", with_study("{\"kind\": \"frf\", \"from\": 2}"), "/studies/0/to", "found no key \"to\""});
   rows.push_back({"from of zero", with_study("{\"kind\": \"frf\", \"from\": 0, \"to\": 2}"),
                   "/studies/0/from", "found 0, must be above 0 Hz"});
-  rows.push_back({"from that is no number", with_study("{\"kind\": \"frf\", \"from\": \"1\", \"to\": 2}"),
-                  "/studies/0/from", "found \"1\" (a string), must be a number, above 0 Hz"});
+  rows.push_back({"from that is no number", with_study("{\"kind\": \"frf\", \"from\": true, \"to\": 2}"),
+                  "/studies/0/from", "found true, must be a number, above 0 Hz"});
   rows.push_back({"a frequency whose square is no number",
                   with_study("{\"kind\": \"frf\", \"from\": 1, \"to\": 1e300}"), "/studies/0/to",
                   "found 1e+300, must be at most 1e+100 Hz: numbers with its square would overflow"});
@@ -125,9 +125,9 @@ void add_studies(std::vector<BadScene>& rows) {
   rows.push_back({"comment that is no text",
                   with_sweep("{\"m.value\": {\"from\": 1, \"to\": 2, \"count\": 3, \"comment\": 1}}"),
                   "/studies/0/for_each/m.value/comment", "found 1 (a number), must be a string, a comment"});
-  rows.push_back({"sweep over strings", with_sweep("{\"m.value\": [1, \"2\"]}"),
+  rows.push_back({"sweep over words", with_sweep("{\"m.value\": [1, true]}"),
                   "/studies/0/for_each/m.value/1",
-                  "found \"2\" (a string), must be a number, at least 0 kg"});
+                  "found true, must be a number, at least 0 kg"});
   rows.push_back({"sweep out of bounds", with_sweep("{\"m.value\": [1, -2]}"),
                   "/studies/0/for_each/m.value/1", "found -2, must be at least 0 kg"});
   rows.push_back({"sweep to 1e999", with_sweep("{\"k.value\": [1, 1e999]}"), "/studies/0/for_each/k.value/1",
@@ -211,21 +211,23 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
   const std::string window = "\"frequency\": [1, 2]";
 
   add("no parameter to go over", kind + range + window, "over",
-      "found no key \"over\", which is required: must be a string, the parameter \"part.field\" or tie");
+      "found no key \"over\", which is required: must be a string, the parameter \"part.field\" or constant");
   add("over that is no string", kind + range + window + ", \"over\": [\"d.normal_load\"]", "over",
-      "found a list, must be a string, the parameter \"part.field\" or tie");
+      "found a list, must be a string, the parameter \"part.field\" or constant");
   add("over an unknown parameter", kind + range + window + ", \"over\": \"d.normal_laod\"", "over",
       "found the unknown parameter \"d.normal_laod\", must be one of \"m.value\"");
   add("over a part without its field", kind + range + window + ", \"over\": \"d\"", "over",
       "found the unknown parameter \"d\", must be one of \"m.value\"");
   add("over the frequency", kind + range + window + ", \"over\": \"frequency\"", "over",
       "must be another parameter; over the frequency is a study of kind \"frf\"");
-  rows.push_back({"over a tied field",
-                  good_scene_with("\"studies\": [{\"kind\": \"frf\", \"from\": 1, \"to\": 2, "
-                                  "\"for_each\": {\"d.normal_load\": [1, 2]}}]",
-                                  "\"ties\": {\"t\": [\"d.normal_load\"]}, \"studies\": [{" + kind + over +
-                                      range + window + "}]"),
-                  "/studies/0/over", "found \"d.normal_load\", which is tied; must be its tie \"t\""});
+  rows.push_back(
+      {"over a tied field",
+       good_scene_with(
+           "\"studies\": [{\"kind\": \"frf\", \"from\": 1, \"to\": 2, "
+           "\"for_each\": {\"d.normal_load\": [1, 2]}}]",
+           "\"ties\": {\"t\": [\"d.normal_load\"]}, \"studies\": [{" + kind + over + range + window + "}]"),
+       "/studies/0/over",
+       "found \"d.normal_load\", which is given by the formula \"t\"; must be what that follows: \"t\""});
   rows.push_back(
       {"over a tie with the name of a result",
        good_scene_with("\"studies\": [{\"kind\": \"frf\", \"from\": 1, \"to\": 2, "
@@ -233,7 +235,7 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
                        "\"ties\": {\"phase\": [\"d.normal_load\"]}, \"studies\": [{" + kind +
                            "\"over\": \"phase\", " + range + window + "}]"),
        "/studies/0/over",
-       "found \"phase\", by which results name a quantity of their own; must be a tie of another name"});
+       "found \"phase\", by which results name a quantity of their own; must be a constant of another name"});
   add("over the same parameter as for_each",
       kind + over + range + window + ", \"for_each\": {\"d.normal_load\": [1, 2]}", "for_each/d.normal_load",
       "found \"d.normal_load\", which the study is \"over\"; must be another parameter");
@@ -263,8 +265,8 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
       "found 0, must be above 0 Hz");
   add("window that ends before it begins", kind + over + range + "\"frequency\": [2, 1]", "frequency/1",
       "found 1, must be above the lower end, which is 2 Hz");
-  add("window with a string", kind + over + range + "\"frequency\": [1, \"2\"]", "frequency/1",
-      "found \"2\" (a string), must be a number, above 0 Hz");
+  add("window with a word", kind + over + range + "\"frequency\": [1, true]", "frequency/1",
+      "found true, must be a number, above 0 Hz");
   add("parameter of a study over the frequency", "\"kind\": \"frf\", " + over + "\"from\": 1, \"to\": 2",
       "over",
       "found the key \"over\", which belongs to studies of kind \"trace\", \"peaks\", \"folds\", "
@@ -298,8 +300,8 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
   add("more to record than a result can hold", at + "\"recorded\": 20000", "recorded",
       "found 20000 periods of 1000 steps to record, must be at most 10000000 steps together");
   add("negative tolerance of a motion", at + "\"tolerance\": -1e-9", "tolerance", "found -1e-09, must be");
-  add("tolerance of a motion that is no number", at + "\"tolerance\": \"1e-9\"", "tolerance",
-      "found \"1e-9\" (a string), must be a number");
+  add("tolerance of a motion that is no number", at + "\"tolerance\": true", "tolerance",
+      "found true, must be a number");
   add("range in a motion in time", at + "\"from\": 1", "from",
       "found the key \"from\", which belongs to studies of kind \"frf\", \"trace\", \"peaks\", \"folds\", "
       "\"bifurcations\", "

@@ -76,7 +76,7 @@ TEST_CASE("a file with seven faults gives these seven in one go") {
 TEST_CASE("all faults of a study over a parameter are reported in one go") {
   const std::vector<Fault> faults = faults_of(good_scene_with(
       R"({"kind": "frf", "from": 1, "to": 2, "for_each": {"d.normal_load": [1, 2]}})",
-      R"({"kind": "folds", "over": "d.normal_load", "from": -1, "too": 2, "frequency": [0, "2"],
+      R"({"kind": "folds", "over": "d.normal_load", "from": -1, "too": 2, "frequency": [0, true],
           "for_each": {"d.normal_load": [1], "m.valu": [2]}})"));
   std::vector<std::string> pointers;
   for (const Fault& fault : faults) pointers.push_back(fault.pointer);
@@ -114,7 +114,7 @@ TEST_CASE("all faults of cases, scatter and search settings are reported at once
           "frequency": [1, 2], "evaluations": 0, "seed": 1.5, "seconds": -1, "local": 3,
           "constraints": [{"sum": {"d.normal_laod": 1, "m.value": 1}, "at_most": 3},
                           {"sum": {}, "observable": "frequency"}],
-          "cases": [{"set": {"d.normal_load": 1, "m.value": -1, "c.value": 1, "k": 1}, "weight": 0},
+          "cases": [{"set": {"d.normal_load": 1, "m.value": -1, "c.value": 1, "kk": 1}, "weight": 0},
                     {"response": {"at": "c"}, "wieght": 1}, 3],
           "criterion": "mena", "scatter": {"c.value": [1, 2], "k2.value": [2, 1]},
           "along": "d.stiffness", "from": 0, "to": 2, "for_each": {"d.stiffness": [1], "c.value": [1]}})"));
@@ -131,7 +131,7 @@ TEST_CASE("all faults of cases, scatter and search settings are reported at once
                                              "/studies/0/constraints/1/sum",
                                              "/studies/0/cases/0/set/d.normal_load",
                                              "/studies/0/cases/0/set/m.value",
-                                             "/studies/0/cases/0/set/k",
+                                             "/studies/0/cases/0/set/kk",
                                              "/studies/0/cases/0/weight",
                                              "/studies/0/cases/1/wieght",
                                              "/studies/0/cases/1/response/at",

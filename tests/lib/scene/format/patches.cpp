@@ -81,7 +81,7 @@ TEST_CASE("the parameters of a patch are those of all its elements") {
                                         "pad.friction_coefficient", "pad.pressure_factor"};
   const auto names = scene::parameter_names(s);
   for (const std::string& name : own) CHECK(std::count(names.begin(), names.end(), name) == 1);
-  CHECK(scene::parameter_fields(s, own[0])[0]->unit == "N/m^3");
+  CHECK(scene::parameter_field(s, own[0]).unit == "N/m^3");
   CHECK(scene::value(s, "pad.pressure_factor") == 1);
   scene::set(s, "pad.pressure_factor", 3);
   scene::set(s, "pad.normal_stiffness", 9e7);

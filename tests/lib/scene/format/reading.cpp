@@ -55,7 +55,7 @@ TEST_CASE("what a scene leaves out has the default of the format") {
   CHECK(scene.frequency_unit == FrequencyUnit::hertz);
   CHECK(scene.dampers.empty());
   CHECK(scene.elements.empty());
-  CHECK(scene.ties.empty());
+  CHECK(scene.constants.empty());
   CHECK(scene.harmonics.accuracy == 1e-4);
   CHECK(scene.harmonics.order == 55);
   CHECK(scene.harmonics.friction == Friction::exact);

@@ -9,9 +9,12 @@
 
 using namespace arcslip;
 
-TEST_CASE("a parameter's unit is its field's, a tie's that of its members") {
+TEST_CASE(
+    "a parameter's unit is its field's, that of a constant without one is that of the numbers that it "
+    "gives") {
   auto scene = support::scene();
-  scene.ties.push_back({"load", {"damper.normal_load"}});
+  scene.constants.push_back({.name = "load", .value = 3, .lower = 0, .upper = 10});
+  scene::set_text(scene, "damper.normal_load", "load");
   CHECK(studies::parameter_unit(scene, "damper.normal_load") == "N");
   CHECK(studies::parameter_unit(scene, "load") == "N");
   CHECK(studies::parameter_unit(scene, "k.value") == "N/m");
