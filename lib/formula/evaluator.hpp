@@ -52,7 +52,7 @@ class Evaluator {
   const Formula& formula_;
   std::size_t stride_ = 0;             // between the values of two nodes
   std::vector<char> varies_, active_;  // nodes: whether samples differ; whether a derivative goes through it
-  std::vector<char> marked_inputs_;      // for these marks: which inputs vary
+  std::vector<char> marked_inputs_;    // for these marks: which inputs vary
   std::vector<int> marked_derivatives_;  // by which inputs derivatives are taken
   std::vector<double> values_, adjoints_;
 };

@@ -1,6 +1,7 @@
 // "for_each" by distributions: samples of parameters.
 #include <arcslip/results/text.hpp>
 #include <arcslip/sampling/distribution.hpp>
+#include <arcslip/scene/formulas.hpp>
 #include <arcslip/scene/keys/study_parameters.hpp>
 
 #include <algorithm>
@@ -110,8 +111,9 @@ class SamplesReader {
  private:
   void read_parameter(const Member& member, const std::string& pointer) {
     const Location item{&member.value, child(pointer, member.key)};
-    const auto fields = fields_of(member.key, item.pointer, all_, faults_);
-    if (is_taken(member.key, item.pointer, taken_, faults_)) return;
+    std::string parameter = member.key;
+    const Field field = bounds_of(parameter, item.pointer, all_, faults_);
+    if (is_taken(parameter, item.pointer, taken_, faults_)) return;
     const std::vector<std::string> names = distribution_names();
     const auto* object = member.value.get<Node::Object>();
     const std::string wanted = "an object with one of " + listed(names);
@@ -126,7 +128,7 @@ class SamplesReader {
     }
     for (const DistributionDescription& type : sampling::distribution_types())
       if (type.name == given.front()->key) {
-        read_distribution(member.key, type, {&given.front()->value, child(item.pointer, type.name)}, fields);
+        read_distribution(parameter, type, {&given.front()->value, child(item.pointer, type.name)}, field);
         return;
       }
     faults_.add(child(item.pointer, given.front()->key), "found the unknown distribution " +
@@ -135,7 +137,7 @@ class SamplesReader {
   }
 
   void read_distribution(const std::string& parameter, const DistributionDescription& type,
-                         const Location& place, const std::vector<const Field*>& fields) {
+                         const Location& place, const Field& field) {
     const std::string wanted = values_text(type);
     const Node::List* list = read_list(place, wanted, faults_);
     if (list == nullptr) return;
@@ -145,13 +147,13 @@ class SamplesReader {
     }
     Distribution distribution{type.type, {}};
     const std::size_t before = faults_.count();
+    Field number = any_number;
+    number.unit = field.unit;
     for (std::size_t i = 0; i < list->size(); ++i)
       distribution.values[i] =
-          read_number({&(*list)[i], child(place.pointer, i)}, any_number, faults_).value_or(0);
+          read_number({&(*list)[i], child(place.pointer, i)}, number, faults_).value_or(0);
     if (faults_.count() > before || !are_valid(distribution, place.pointer, faults_)) return;
-    for (const Field* field : fields)
-      if (field != nullptr)
-        check_bounds(distribution, static_cast<int>(plan_.count), *field, place.pointer, faults_);
+    check_bounds(distribution, static_cast<int>(plan_.count), field, place.pointer, faults_);
     plan_.parameters.emplace_back(parameter, distribution);
   }
 
@@ -165,7 +167,7 @@ class SamplesReader {
 
 bool are_samples(const Location& place, const Parameters& all) {
   const Node::Object* object = place.node != nullptr ? place.node->get<Node::Object>() : nullptr;
-  return object != nullptr && !all.tie_by_name.contains("distributions") &&
+  return object != nullptr && parameter_of(all.scene, "distributions").empty() &&
          std::any_of(object->begin(), object->end(),
                      [](const Member& member) { return member.key == "distributions"; });
 }

@@ -77,6 +77,8 @@ void check_followed(Study& study, const std::string& pointer, const Scene& scene
                                        [&](const std::string& at, double&) { followed.push_back(at); });
   std::vector<ParameterUse> changed = study.type->settings().taken(study.settings);
   for (const auto& list : study.for_each) changed.push_back({list.first, "which \"for_each\" changes"});
+  for (const auto& sampled : study.samples.parameters)
+    changed.push_back({sampled.first, "which \"for_each\" changes"});
   for (const auto& [at, formula] : study.texts) {
     if (std::find(followed.begin(), followed.end(), at) == followed.end())
       faults.add(pointer + at,
