@@ -1,0 +1,18 @@
+#pragma once
+// Studies with all that a run leaves: files, tables, the report and remarks.
+
+#include "exit_code.hpp"
+#include "options.hpp"
+
+#include <arcslip/scene/scene.hpp>
+
+#include <vector>
+
+namespace arcslip::app {
+
+/// Runs studies of a scene one after the other. Checks all outputs before anything is computed. Throws
+/// UsageError, output::WriteError.
+ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
+                     const CommandOptions& options);
+
+}  // namespace arcslip::app
