@@ -314,7 +314,7 @@ scene::Scene with_options(const scene::Scene& scene, std::size_t index, const Co
   }
 }
 
-scene::Study study_of_verb(scene::Scene& scene, const CommandOptions& options) {
+std::size_t study_of_verb(scene::Scene& scene, const CommandOptions& options) {
   check_parameters(scene, options);
   const GivenKey* over_given = find(options, "over");
   const std::string over = over_given != nullptr ? parameter_of(*over_given) : "";
@@ -327,7 +327,7 @@ scene::Study study_of_verb(scene::Scene& scene, const CommandOptions& options) {
   }
   const std::size_t index = found.value_or(scene.studies.size() - 1);
   scene = with_options(scene, index, options);
-  return scene.studies[index];
+  return index;
 }
 
 }  // namespace arcslip::app

@@ -20,9 +20,9 @@ bool takes_keys(const scene::Study& study, const CommandOptions& options);
 /// result is not a valid study.
 scene::Scene with_options(const scene::Scene& scene, std::size_t study, const CommandOptions& options);
 
-/// The study to run for the verb: the scene's first study of its kind (over the requested parameter, if
-/// given) with the options applied, or a new one made from the options. Adds it to the scene. Throws
-/// UsageError.
-scene::Study study_of_verb(scene::Scene& scene, const CommandOptions& options);
+/// The index of the study to run for the verb: the scene's first study of its kind (over the requested
+/// parameter, if given) with the options applied, or a new one made from the options. Adds it to the scene.
+/// Throws UsageError.
+std::size_t study_of_verb(scene::Scene& scene, const CommandOptions& options);
 
 }  // namespace arcslip::app

@@ -245,14 +245,14 @@ class CommonResults {
 class StudiesRun {
  public:
   StudiesRun(const scene::Scene& scene, const std::vector<scene::Study>& studies,
-             const CommandOptions& options)
+             const CommandOptions& options, const std::vector<std::string>& notes)
       : scene_(scene),
         studies_(studies),
         options_(options),
         how_(run_options(options)),
         files_(study_files(options.out, studies)),
         held_(prepare_places(options, scene, studies, files_)),
-        header_(studies::header(scene)),
+        header_(header_of(scene, notes)),
         schemas_(schemas_of(scene, studies, how_)),
         common_(options, header_, schemas_) {
     if (report_path(options).empty()) return;
@@ -287,6 +287,12 @@ class StudiesRun {
     for (const scene::Study& study : studies)
       schemas.push_back(studies::kind_of(*study.type).schema(scene, study, how));
     return schemas;
+  }
+
+  static results::Header header_of(const scene::Scene& scene, const std::vector<std::string>& notes) {
+    results::Header header = studies::header(scene);
+    header.notes = notes;
+    return header;
   }
 
   void run_study(std::size_t i) {
@@ -392,10 +398,10 @@ class StudiesRun {
 }  // namespace
 
 ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>& studies,
-                     const CommandOptions& options) {
+                     const CommandOptions& options, const std::vector<std::string>& notes) {
   check_one_table(options, scene, studies);
   check_combinations(options, studies);
-  return StudiesRun(scene, studies, options).run();
+  return StudiesRun(scene, studies, options, notes).run();
 }
 
 }  // namespace arcslip::app

@@ -9,7 +9,7 @@
 #include "standard_output.hpp"
 #include "studies_run.hpp"
 
-#include <arcslip/analyses/branches/resonances.hpp>
+#include <arcslip/analyses/branches/model_description.hpp>
 #include <arcslip/model/reduced_scene.hpp>
 #include <arcslip/model/reduction_report.hpp>
 #include <arcslip/output/atomic_file.hpp>
@@ -17,6 +17,7 @@
 #include <arcslip/results/version.hpp>
 #include <arcslip/scene/files/manifest.hpp>
 #include <arcslip/studies/highest_harmonic.hpp>
+#include <arcslip/studies/windows.hpp>
 
 #include <cstddef>
 #include <filesystem>
@@ -35,11 +36,26 @@ void tell_beyond_reduction(const scene::Scene& scene, const std::vector<scene::S
       tell("the study \"" + study.name + "\" has " + doubt);
 }
 
-ExitCode check(const scene::Scene& scene, const CommandOptions& options) {
+/// Proposes the windows that studies from `first` to `last` leave out. Returns a sentence for each.
+std::vector<std::string> propose_windows(scene::Scene& scene, std::size_t first, std::size_t last,
+                                         const CommandOptions& options) {
+  std::vector<std::string> notes;
+  for (std::size_t i = first; i < last; ++i)
+    if (std::string note = studies::propose_window(scene, i, by_signal()); !note.empty()) {
+      if (!options.quiet) tell(note);
+      notes.push_back(std::move(note));
+    }
+  return notes;
+}
+
+ExitCode check(scene::Scene& scene, const CommandOptions& options) {
+  propose_windows(scene, 0, scene.studies.size(), options);
   tell_beyond_reduction(scene, scene.studies);
   if (!options.quiet) {
-    if (const std::string text = observables::text_of_resonances(scene, by_signal()); !text.empty())
-      tell(text);
+    const auto windows = studies::windows_of(scene);
+    const auto model = observables::describe_model(scene, windows, by_signal());
+    for (const std::string& fact : model.facts) tell(fact);
+    for (const std::string& doubt : model.doubts) tell("check this: " + doubt);
     StandardOutput screen;
     screen.write_lines([&](std::ostream& out) { out << scene::write(scene); });
     screen.finish();
@@ -88,17 +104,20 @@ ExitCode reduce(const scene::Scene& scene, const CommandOptions& options) {
   return writing.code(ExitCode::done);
 }
 
-ExitCode compute(const scene::Scene& scene, const std::vector<scene::Study>& studies,
-                 const CommandOptions& options) {
+/// Runs studies of the scene from `first` to `last`.
+ExitCode compute(scene::Scene& scene, std::size_t first, std::size_t last, const CommandOptions& options) {
+  const std::vector<std::string> notes = propose_windows(scene, first, last, options);
+  const std::vector<scene::Study> studies(scene.studies.begin() + static_cast<std::ptrdiff_t>(first),
+                                          scene.studies.begin() + static_cast<std::ptrdiff_t>(last));
   tell_beyond_reduction(scene, studies);
-  return run_studies(scene, studies, options);
+  return run_studies(scene, studies, options, notes);
 }
 
 ExitCode run_scene(scene::Scene scene, CommandOptions options) {
   if (scene.studies.empty()) {
     throw UsageError(
         "the scene has no studies, so there is nothing to run: add one to \"studies\", or use "
-        "arcslip frf with --from and --to");
+        "arcslip frf");
   }
   bool any = options.keys.empty();
   for (std::size_t i = 0; i < scene.studies.size() && !options.keys.empty(); ++i) {
@@ -114,7 +133,7 @@ ExitCode run_scene(scene::Scene scene, CommandOptions options) {
   }
   if (options.out.empty())
     options.out = (std::filesystem::path("out") / std::filesystem::path(options.scene).stem()).string();
-  return compute(scene, scene.studies, options);
+  return compute(scene, 0, scene.studies.size(), options);
 }
 
 }  // namespace
@@ -129,8 +148,8 @@ ExitCode execute(const CommandOptions& options, const scene::Catalogue& catalogu
   if (options.verb == ensemble_verb) return compute_ensemble(scene, options);
   if (options.verb == "reduce") return reduce(scene, options);
   if (options.type == nullptr) return check(scene, options);
-  const scene::Study study = study_of_verb(scene, options);
-  return compute(scene, {study}, options);
+  const std::size_t study = study_of_verb(scene, options);
+  return compute(scene, study, study + 1, options);
 }
 
 }  // namespace arcslip::app

@@ -284,6 +284,15 @@ std::vector<Vector> places_of_response(const model::Model& model) {
   return all;
 }
 
+// v^T C v / (2 omega), and the loss factor over 2, of a mode with v^T M v = 1. K: of the structure alone.
+double damping_ratio(const model::Model& model, const Vector& p, const Eigen::MatrixXd& C,
+                     const Eigen::MatrixXd& K, double omega, const Vector& v) {
+  const model::ProportionalDamping none, &damping = model.damping ? *model.damping : none;
+  const double stiff = v.dot(K * v);
+  return (v.dot(C * v) + damping.alpha_at(p) + damping.beta_at(p) * stiff) / (2 * omega) +
+         damping.loss_factor_at(p) * stiff / (2 * omega * omega);
+}
+
 struct ShapeAtRest {
   ModeAtRest mode;
   Vector v;  // v^T M v = 1
@@ -335,8 +344,9 @@ std::optional<std::vector<ModeAtRest>> modes_at_rest(const model::Model& model, 
   const auto sum = [&](LinearKind kind) {
     return in_waves ? sum_in_wave(model, kind, p, diameter) : model::sum_of(model, kind, p);
   };
-  const Eigen::MatrixXd M = sum(LinearKind::mass);
-  Eigen::MatrixXd K = sum(LinearKind::spring);
+  const Eigen::MatrixXd M = sum(LinearKind::mass), C = sum(LinearKind::damper);
+  const Eigen::MatrixXd own = sum(LinearKind::spring);
+  Eigen::MatrixXd K = own;
   if (!add_tangents(model, p, contacts, rigid_link * K.cwiseAbs().maxCoeff(), diameter, K)) return {};
   const ModesWithMass modes = modes_with_mass(M, K);
   std::vector<ShapeAtRest> all;
@@ -344,14 +354,24 @@ std::optional<std::vector<ModeAtRest>> modes_at_rest(const model::Model& model, 
     const Vector v = modes.V.col(k);
     const double stiffness = v.dot(K * v);
     if (!(stiffness > rigid_body * v.cwiseAbs().dot(K.cwiseAbs() * v.cwiseAbs()))) continue;
-    const double mass = v.dot(M * v);
-    all.push_back({{std::sqrt(stiffness / mass)}, v / std::sqrt(mass)});
+    const double mass = v.dot(M * v), omega = std::sqrt(stiffness / mass);
+    ShapeAtRest& shape = all.emplace_back(ShapeAtRest{{omega}, v / std::sqrt(mass)});
+    shape.mode.damping_ratio = damping_ratio(model, p, C, own, omega, shape.v);
   }
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.mode.omega < b.mode.omega; });
   if (!in_waves) tell_driven_by_frequency(all, lowest_forces(model, p), places_of_response(model));
   std::vector<ModeAtRest> reported;
   for (const ShapeAtRest& each : all) reported.push_back(each.mode);
   return reported;
+}
+
+std::optional<Eigen::MatrixXd> stiffness_at_rest(const model::Model& model, const Vector& p,
+                                                 Contacts contacts) {
+  if (model.sector) return {};
+  Eigen::MatrixXd K = model::sum_of(model, LinearKind::spring, p);
+  K = 0.5 * (K + K.transpose()).eval();
+  if (!add_tangents(model, p, contacts, rigid_link * K.cwiseAbs().maxCoeff(), 0, K)) return {};
+  return K;
 }
 
 }  // namespace arcslip::observables

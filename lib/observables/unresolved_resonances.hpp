@@ -38,11 +38,12 @@ enum class Contacts { free, stuck };
 /// Whether its elements may stick and slip, or open.
 bool is_contact(const elements::Law& law);
 
-/// A natural mode of the structure at rest, without damping.
+/// A natural mode of the structure at rest, computed without damping.
 struct ModeAtRest {
-  double omega;          // rad/s
-  bool responds = true;  // the response moves in it; of equal frequencies (1e-6), in what is driven
-  bool driven = true;    // the lowest harmonic of the excitation drives it
+  double omega;              // rad/s
+  bool responds = true;      // the response moves in it; of equal frequencies (1e-6), in what is driven
+  bool driven = true;        // the lowest harmonic of the excitation drives it
+  double damping_ratio = 0;  // of its own motion, by the dampers and the damping of the structure
 };
 
 /// Of modes_at_rest(): 200 degrees of freedom take some 10 ms, 1000 a second.
@@ -55,5 +56,9 @@ inline constexpr int few_dofs = 200, many_dofs = 1000;
 /// most_dofs degrees of freedom, counted twice in a sector.
 std::optional<std::vector<ModeAtRest>> modes_at_rest(const model::Model& model, const continuation::Vector& p,
                                                      Contacts contacts, int most_dofs = few_dofs);
+
+/// The symmetric part of K with the elements at rest, as in modes_at_rest(). Nothing for a sector of a ring.
+std::optional<Eigen::MatrixXd> stiffness_at_rest(const model::Model& model, const continuation::Vector& p,
+                                                 Contacts contacts);
 
 }  // namespace arcslip::observables

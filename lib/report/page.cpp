@@ -85,6 +85,8 @@ void write_overview(Html& html, const Contents& contents) {
 
 void write_scene(Html& html, const Contents& contents) {
   html.open("section", {{"id", "scene"}}).element("h2", "Scene");
+  for (const std::string& note : contents.header.notes)
+    html.element("p", "Note: " + note + ".", {{"class", "note"}});
   write_drawing(html, contents.scene);
   write_parameters(html, contents);
   html.close();

@@ -107,11 +107,8 @@ inline constexpr EventKind phase_resonance{
     {},
     "an end of the curve, on which the motion is a quarter of a period behind the force",
     "curves of phase resonances"};
-inline constexpr EventKind corner{"corner",
-                                  "corner",
-                                  {},
-                                  "the curve reaches or leaves a grazing point",
-                                  "curves of peaks and folds"};
+inline constexpr EventKind corner{
+    "corner", "corner", {}, "the curve reaches or leaves a grazing point", "curves of peaks and folds"};
 inline constexpr EventKind start{
     "start", "start", {}, "where it begins", "modes, branches that leave another one"};
 inline constexpr EventKind end{"end", "end", {}, "where it ends", "modes, branches that leave another one"};

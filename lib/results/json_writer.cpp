@@ -220,6 +220,8 @@ void JsonWriter::begin(const Header& header, std::span<const Schema> schemas) {
        << ",\n\"scene_hash\": " << json_quoted(header.scene_hash)
        << ",\n\"title\": " << json_quoted(header.title)
        << ",\n\"frequency_unit\": " << json_quoted(header.frequency_unit);
+  if (!header.notes.empty())
+    out_ << ",\n\"notes\": " << json(Value::List(header.notes.begin(), header.notes.end()));
   if (!header.reduction.empty()) out_ << ",\n\"reduction\": " << json(header.reduction);
 }
 

@@ -90,7 +90,8 @@ struct Rows {
 
 struct Header {
   std::string program, scene_hash, title, frequency_unit;
-  Object reduction{};  // of the structure; empty: none
+  Object reduction{};                // of the structure; empty: none
+  std::vector<std::string> notes{};  // sentences about what the scene leaves open; mostly none
 };
 
 /// Data of a result before it is computed.

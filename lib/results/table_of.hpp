@@ -92,9 +92,8 @@ class TableOf {
 
   /// Of a range of items.
   template <class Range>
-  requires std::is_same_v<std::decay_t<decltype(*std::begin(std::declval<const Range&>()))>, Item> Rows
-  rows(const Range& range)
-  const {
+    requires std::is_same_v<std::decay_t<decltype(*std::begin(std::declval<const Range&>()))>, Item>
+  Rows rows(const Range& range) const {
     std::vector<const Item*> items;
     for (const Item& item : range) items.push_back(&item);
     return rows(Items(items));

@@ -1,6 +1,7 @@
 #include <arcslip/results/text.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -147,6 +148,24 @@ std::string quantity(double value, std::string_view unit) {
   std::string text = shortest(std::isfinite(rounded) ? rounded : value);
   if (!unit.empty() && unit != "-") text.append(" ").append(unit);
   return text;
+}
+
+std::string readable(double value, std::string_view unit, int digits) {
+  constexpr std::array<std::string_view, 7> prefixes = {"n", "\u00b5", "m", "", "k", "M", "G"};
+  constexpr int without = 3;
+  constexpr std::array<std::string_view, 5> scaled = {"m", "N", "J", "W", "Pa"};
+  const bool takes_prefix = std::any_of(scaled.begin(), scaled.end(), [&](std::string_view of) {
+    return unit == of || (unit.starts_with(of) && (unit[of.size()] == ' ' || unit[of.size()] == '/'));
+  });
+  int prefix = without;
+  double shown = value;
+  if (takes_prefix && std::isfinite(value) && value != 0) {
+    for (; std::abs(shown) < 0.1 && prefix > 0; --prefix) shown *= 1e3;
+    for (; std::abs(shown) >= 100 && prefix + 1 < static_cast<int>(prefixes.size()); ++prefix) shown /= 1e3;
+  }
+  const std::string text = to_digits(shown, digits);
+  if (unit.empty() || unit == "-") return text;
+  return text + " " + std::string(prefixes[static_cast<std::size_t>(prefix)]) + std::string(unit);
 }
 
 }  // namespace arcslip::results

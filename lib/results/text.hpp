@@ -38,6 +38,10 @@ std::string with_unit(std::string_view quantity, std::string_view unit);
 /// "3 N", to ten digits; without a unit for a pure number ("" or "-").
 std::string quantity(double value, std::string_view unit);
 
+/// The same to so many digits, with a prefix where the number is below 0.1 or at least 100 of the unit: "0.69
+/// mm", "3.2 MN/m". m, N, J, W, Pa and units that begin with these have prefixes, others exponents.
+std::string readable(double value, std::string_view unit, int digits = 4);
+
 /// Escapes every character that is unsafe for a terminal or invalid: control characters (C0, DEL, C1),
 /// bidirectional formatting characters, line and paragraph separators, noncharacters (U+FFFE, U+FFFF and so
 /// on) and surrogates, as in JSON (\u009b); bytes that are not UTF-8, as \x9b. Idempotent.

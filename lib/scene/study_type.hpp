@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,6 +24,11 @@ struct ParameterUse {
 /// Takes a number of a study's settings and its JSON pointer in the study, "/from" or "/frequency/0".
 using NumberVisitor = std::function<void(const std::string& pointer, double& number)>;
 
+/// The ends of a window of frequencies, in the scene's unit.
+struct WindowEnds {
+  double *lower, *upper;
+};
+
 /// The keys of settings, whose type only file::KeysOf (scene/keys/study_keys.hpp) knows. Settings that are
 /// empty have the defaults.
 class SettingsKeys {
@@ -34,6 +40,8 @@ class SettingsKeys {
   virtual Settings read(const file::Reading& from) const = 0;
   /// Files named by the settings.
   virtual std::vector<NamedFile*> files(Settings& settings) const = 0;
+  /// The window that the settings may have; both of its ends are 0 where the scene does not give it.
+  virtual std::optional<WindowEnds> window(Settings& settings) const = 0;
   virtual void write(const Settings& settings, const Scene& scene, std::vector<file::Member>& to) const = 0;
 
   virtual std::vector<ParameterUse> taken(const Settings& settings) const = 0;

@@ -7,13 +7,13 @@
 #include <arcslip/laws/hysteresis/jenkins.hpp>
 #include <arcslip/laws/memoryless/bilinear_spring.hpp>
 #include <arcslip/laws/memoryless/coulomb.hpp>
-#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/laws/memoryless/formula_type.hpp>
 #include <arcslip/laws/memoryless/gap_spring.hpp>
 #include <arcslip/laws/memoryless/piecewise_linear_spring.hpp>
 #include <arcslip/laws/memoryless/polynomial_coupling.hpp>
 #include <arcslip/laws/memoryless/polynomial_spring.hpp>
 #include <arcslip/laws/memoryless/quadratic_damper.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/studies/presentation/columns.hpp>
 
 #include <algorithm>

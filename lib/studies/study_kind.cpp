@@ -1,11 +1,16 @@
 #include <arcslip/studies/study_kind.hpp>
 
+#include <arcslip/studies/windows.hpp>
+
 #include <stdexcept>
 
 namespace arcslip::studies {
 
 results::Schema StudyKind::schema(const scene::Scene& scene, const scene::Study& study,
                                   const RunOptions& options) const {
+  if (lacks_window(study))
+    throw std::invalid_argument("the study \"" + study.name +
+                                "\" has no window of frequencies: give one, or call propose_window()");
   results::Schema schema = compute_(scene, study, options)->schema();
   NamedValues set;  // by for_each
   for (const std::string& parameter : scene::varied_parameters(study)) set.emplace_back(parameter, 0);

@@ -10,6 +10,7 @@
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/presentation/columns.hpp>
 #include <arcslip/studies/study_kind.hpp>
+#include <arcslip/studies/windows.hpp>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
@@ -120,15 +121,21 @@ std::pair<std::vector<std::string>, std::vector<std::string>> remarks(const Resu
 }
 
 /// Returns how many of the studies were begun.
-std::size_t compute(const scene::Scene& scene, const std::vector<std::size_t>& which,
+std::size_t compute(scene::Scene scene, const std::vector<std::size_t>& which,
                     const control::Control& control, studies::RunOptions options,
                     results::Collector& collector) {
   options.control = control;
   observables::prepare(scene, control);
+  std::vector<std::string> notes;
+  for (const std::size_t i : which)
+    if (std::string note = studies::propose_window(scene, i, control); !note.empty())
+      notes.push_back(std::move(note));
   std::vector<results::Schema> schemas;
   for (const std::size_t i : which)
     schemas.push_back(studies::kind_of(*scene.studies[i].type).schema(scene, scene.studies[i], options));
-  collector.begin(studies::header(scene), schemas);
+  results::Header header = studies::header(scene);
+  header.notes = std::move(notes);
+  collector.begin(header, schemas);
   std::size_t begun = 0;
   for (; begun < which.size() && control.keep_going(); ++begun) {
     const scene::Study& study = scene.studies[which[begun]];

@@ -10,7 +10,7 @@
 namespace arcslip::observables {
 namespace {
 
-constexpr std::ptrdiff_t most_shown = 4;
+constexpr int most_shown = 4;  // around a window
 constexpr int digits = 5;
 constexpr double far_below = 1e-2;  // of the lower end of a window
 
@@ -23,10 +23,11 @@ std::string value_of(const ModeAtRest& mode, scene::FrequencyUnit unit) {
 using Modes = std::vector<ModeAtRest>;
 
 /// "47, 52.3 and 60.1 Hz", of many the first ones and the last one: "47, 52.3, 60.1 ... 940 Hz"
-std::string list(Modes::const_iterator first, Modes::const_iterator last, scene::FrequencyUnit unit) {
-  const bool all = last - first <= most_shown;
+std::string list(Modes::const_iterator first, Modes::const_iterator last, scene::FrequencyUnit unit,
+                 int most = most_shown) {
+  const bool all = last - first <= most;
   std::string text;
-  for (auto each = first; each != (all ? last : first + most_shown - 1); ++each)
+  for (auto each = first; each != (all ? last : first + most - 1); ++each)
     text += (each == first ? "" : each + 1 == last ? " and " : ", ") + value_of(*each, unit);
   if (!all) text += " ... " + value_of(*(last - 1), unit);
   return text + " " + std::string(scene::unit_name(unit));
@@ -45,20 +46,6 @@ std::string around(const Modes& modes, const FrequencyWindow& window, scene::Fre
   add(first, last, " within");
   add(last, last == modes.end() ? last : last + 1, " above");
   return text;
-}
-
-/// Of masses and stiffnesses taken for each other the frequencies in rad/s are the reciprocals.
-std::string question_of_swapped(const Modes& modes, const FrequencyWindow& window,
-                                scene::FrequencyUnit unit) {
-  if (modes.empty() || !(modes.back().omega < far_below * window.lower)) return "";
-  Modes swapped;
-  for (auto each = modes.rbegin(); each != modes.rend(); ++each) swapped.push_back({1 / each->omega});
-  const bool plausible = std::any_of(swapped.begin(), swapped.end(), [&](const ModeAtRest& mode) {
-    return mode.omega >= window.lower && mode.omega <= window.upper;
-  });
-  if (!plausible) return "";
-  return "; are mass and stiffness taken for each other? Then they would be " +
-         list(swapped.begin(), swapped.end(), unit);
 }
 
 Modes at_excitation(Modes modes, int harmonic) {
@@ -100,18 +87,28 @@ std::string sentence(const Resonances& all, Reported reported) {
 
 }  // namespace
 
-std::string text_of(const Resonances& all, scene::FrequencyUnit unit) {
-  return sentence(all, [&](const Modes& modes) { return list(modes.begin(), modes.end(), unit); });
+// Of masses and stiffnesses taken for each other the frequencies in rad/s are the reciprocals.
+std::string question_of_swapped(const Modes& modes, const FrequencyWindow& window,
+                                scene::FrequencyUnit unit) {
+  if (modes.empty() || !(modes.back().omega < far_below * window.lower)) return "";
+  Modes swapped;
+  for (auto each = modes.rbegin(); each != modes.rend(); ++each) swapped.push_back({1 / each->omega});
+  const bool plausible = std::any_of(swapped.begin(), swapped.end(), [&](const ModeAtRest& mode) {
+    return mode.omega >= window.lower && mode.omega <= window.upper;
+  });
+  if (!plausible) return "";
+  return "are mass and stiffness taken for each other? Then they would be " +
+         list(swapped.begin(), swapped.end(), unit);
+}
+
+std::string text_of(const Resonances& all, scene::FrequencyUnit unit, int most) {
+  return sentence(all, [&](const Modes& modes) { return list(modes.begin(), modes.end(), unit, most); });
 }
 
 std::string text_of(const Resonances& all, const FrequencyWindow& window, scene::FrequencyUnit unit) {
   const std::string text = sentence(all, [&](const Modes& modes) { return around(modes, window, unit); });
-  return all.harmonic > 1 ? text : text + question_of_swapped(all.free, window, unit);
-}
-
-std::string text_of_resonances(const scene::Scene& scene, const control::Control& control) {
-  const model::Model model = model::build(scene, control);
-  return text_of(resonances(model, model::defaults(model), many_dofs), scene.frequency_unit);
+  const std::string question = all.harmonic > 1 ? "" : question_of_swapped(all.free, window, unit);
+  return question.empty() ? text : text + "; " + question;
 }
 
 void tell_missing_peak(const model::Model& model, const FrequencyWindow& window, scene::FrequencyUnit unit,

@@ -92,14 +92,16 @@ void visit_pair(const std::string& pointer, std::pair<double, double>& both, con
 }
 
 KeyGroup<std::pair<double, double>> frequency_range() {
-  return {{{"from", KeyType::frequency, "frequency", "above 0", "", true, "first frequency"},
-           {"to", KeyType::frequency, "frequency", "above \"from\"", "", true, "last frequency"}},
+  return {{{"from", KeyType::frequency, "frequency", "above 0", "", false, "first frequency"},
+           {"to", KeyType::frequency, "frequency", "above \"from\"", "", false, "last frequency"}},
           [](const Reading& reading, std::pair<double, double>& range) {
+            if (!reading.keys.has("from") && !reading.keys.has("to")) return;
             range = read_range(reading, reading.frequency);
             check_frequency(range.first, reading.keys.find("from").pointer, reading);
             check_frequency(range.second, reading.keys.find("to").pointer, reading);
           },
           [](const std::pair<double, double>& range, const Scene&, Node::Object& to) {
+            if (range.second == 0) return;
             write_range(range.first, range.second, to);
           },
           {},
@@ -140,17 +142,19 @@ KeyGroup<RangeOver> range_over() {
 }
 
 KeyGroup<std::pair<double, double>> window() {
-  return {{{"frequency", KeyType::window, "frequency", "[lower, upper], 0 < lower < upper", "", true,
+  return {{{"frequency", KeyType::window, "frequency", "[lower, upper], 0 < lower < upper", "", false,
             "the frequency window"}},
           [](const Reading& reading, std::pair<double, double>& ends) {
             const std::string wanted =
                 "a window [lower, upper] of two frequencies, each " + allowed_text(reading.frequency);
-            const Location place = reading.keys.require("frequency", wanted, reading.faults);
+            const Location place = reading.keys.find("frequency");
+            if (place.node == nullptr) return;
             ends = read_pair(reading, place, wanted, reading.frequency, "end");
             check_frequency(ends.first, child(place.pointer, std::size_t{0}), reading);
             check_frequency(ends.second, child(place.pointer, std::size_t{1}), reading);
           },
           [](const std::pair<double, double>& ends, const Scene&, Node::Object& to) {
+            if (ends.second == 0) return;
             to.push_back({"frequency", node(std::vector{ends.first, ends.second})});
           },
           {},

@@ -15,6 +15,7 @@
 #include <arcslip/scene/study_type.hpp>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -48,6 +49,7 @@ struct KeyGroup {
   std::function<void(std::string_view, Settings&)> drop{};           // a parameter from lists of values
   std::function<void(Settings&, std::vector<NamedFile*>&)> files{};  // that are named here
   std::function<void(Settings&, const NumberVisitor&)> numbers{};    // that may follow parameters
+  std::function<WindowEnds(Settings&)> window{};                     // of frequencies
 };
 
 /// A part of the settings as a group of its own: settings within settings, or a single value.
@@ -75,6 +77,7 @@ KeyGroup<S> within(Part S::*part, KeyGroup<Part> group) {
     all.numbers = [part, of = std::move(group.numbers)](S& s, const NumberVisitor& visit) {
       of(s.*part, visit);
     };
+  if (group.window) all.window = [part, of = std::move(group.window)](S& s) { return of(s.*part); };
   return all;
 }
 
@@ -100,6 +103,14 @@ KeyGroup<S> within(double S::*first, double S::*second, KeyGroup<std::pair<doubl
           }};
 }
 
+/// The same of a window of frequencies.
+template <class S>
+KeyGroup<S> window_within(double S::*lower, double S::*upper, KeyGroup<std::pair<double, double>> group) {
+  KeyGroup<S> all = within(lower, upper, std::move(group));
+  all.window = [=](S& s) { return WindowEnds{&(s.*lower), &(s.*upper)}; };
+  return all;
+}
+
 // Standard groups of keys, defined by the targets of their values: of a value alone, which is compiled once,
 // and of members of settings. A missing or invalid value leaves its target unchanged.
 
@@ -113,11 +124,11 @@ void visit_pair(const std::string& pointer, std::pair<double, double>& both, con
 /// "from" and "to" of a field, from < to.
 std::pair<double, double> read_range(const Reading& reading, const Field& field);
 
-/// "from" and "to" in the unit of the scene's frequencies, from < to.
+/// "from" and "to" in the unit of the scene's frequencies, from < to. Both may be left out, and are 0 then.
 KeyGroup<std::pair<double, double>> frequency_range();
 template <class S>
 KeyGroup<S> frequency_range(double S::*from, double S::*to) {
-  return within(from, to, frequency_range());
+  return window_within(from, to, frequency_range());
 }
 
 /// "over", a parameter, and its range "from" and "to".
@@ -150,11 +161,11 @@ KeyGroup<S> range_over(std::string S::*over, double S::*from, double S::*to) {
           }};
 }
 
-/// "frequency": a window [lower, upper] of frequencies.
+/// "frequency": a window [lower, upper] of frequencies. It may be left out; its ends are 0 then.
 KeyGroup<std::pair<double, double>> window();
 template <class S>
 KeyGroup<S> window(double S::*lower, double S::*upper) {
-  return within(lower, upper, window());
+  return window_within(lower, upper, window());
 }
 
 /// A window of another field, whose bounds are open at 0.
@@ -270,6 +281,11 @@ class KeysOf final : public SettingsKeys {
     for (const auto& group : groups_)
       if (group.files && !settings.empty()) group.files(settings.as<S>(), all);
     return all;
+  }
+  std::optional<WindowEnds> window(Settings& settings) const override {
+    for (const auto& group : groups_)
+      if (group.window && !settings.empty()) return group.window(settings.as<S>());
+    return {};
   }
 
  private:
