@@ -5,6 +5,7 @@
 #include <arcslip/scene/keys/write_values.hpp>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace arcslip::app {
 namespace {
@@ -12,6 +13,8 @@ namespace {
 using scene::Key;
 using scene::KeyType;
 using scene::file::Node;
+
+constexpr const char* for_each = "for_each";
 
 std::string type_name(const Key& key) {
   switch (key.type) {
@@ -33,10 +36,19 @@ std::string type_name(const Key& key) {
     case KeyType::parameters:
       return "NAME.FIELD[=A:B]";
     case KeyType::followed:
+      return "NAME.FIELD=A:B";
     case KeyType::other:
       break;
   }
-  return "NAME.FIELD=A:B";
+  return key.name == for_each ? "NAME.FIELD=V,V..." : "JSON";
+}
+
+/// "a, b or c"
+std::string words(const std::vector<std::string>& all) {
+  std::string text;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    text.append(i == 0 ? "" : i + 1 == all.size() ? " or " : ", ").append(all[i]);
+  return text;
 }
 
 std::string help(const Key& key) {
@@ -48,6 +60,7 @@ std::string help(const Key& key) {
   if (key.type == KeyType::parameters)
     text += ", each with its bounds, e.g. damper.normal_load=0.1:100; may be repeated";
   if (key.type == KeyType::followed) text += ", with its range, e.g. force.cosine=1:8";
+  if (key.type == KeyType::word) text += ": " + words(key.words);
   if (!key.otherwise.empty()) {
     const bool is_text = key.otherwise.front() == '"';
     text +=
@@ -70,6 +83,59 @@ std::vector<RangeOption> ranges_of(const std::string& option, const std::vector<
   std::vector<RangeOption> ranges;
   for (const std::string& text : texts) ranges.push_back(parameter_range(option, text));
   return ranges;
+}
+
+Node json_of(const std::string& option, const std::string& text) {
+  try {
+    return scene::file::read_tree(text);
+  } catch (const scene::SceneError& error) {
+    throw UsageError(option + ": found no JSON: " + error.faults().front().message);
+  }
+}
+
+/// "1,3,10", or the range "0.1:100:31", logarithmic as "0.1:100:31:log".
+Node values_of(const std::string& option, const std::string& text) {
+  const std::string wanted = "numbers with commas, or from:to:count, with :log for logarithmic steps";
+  const bool is_range = text.find(':') != std::string::npos;
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == (is_range ? ':' : ','))
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  const bool is_log = is_range && parts.size() == 4 && parts.back() == "log";
+  if (is_log) parts.pop_back();
+  const bool is_empty = std::find(parts.begin(), parts.end(), "") != parts.end();
+  if (is_empty || (is_range && parts.size() != 3))
+    throw UsageError(option + ": found the values \"" + text + "\", must be " + wanted);
+  const std::vector<double> values = numbers(option, parts, wanted);
+  if (!is_range) return scene::file::node(values);
+  Node::Object range{{"from", {values[0]}}, {"to", {values[1]}}, {"count", {values[2]}}};
+  if (is_log) range.push_back({"spacing", {std::string("logarithmic")}});
+  return {std::move(range)};
+}
+
+/// Lists by name, or one JSON value.
+Node lists_of(const std::string& option, const std::vector<std::string>& texts) {
+  const char first = texts.front().front();
+  if (first == '{' || first == '[') return json_of(option, texts.front());
+  Node::Object lists;
+  for (const std::string& text : texts) {
+    const auto equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos)
+      throw UsageError(option + " " + text + ": give it as name.field=value,value, such as " + option +
+                       " damper.normal_load=1,3,10");
+    lists.push_back({text.substr(0, equals), values_of(option, text.substr(equals + 1))});
+  }
+  return {std::move(lists)};
+}
+
+Node other_of(const KeyOption& of) {
+  const std::string& first = of.texts.front();
+  if (of.key.name == for_each) return lists_of(of.name(), of.texts);
+  if (!of.is_flag()) return json_of(of.name(), first);
+  if (first == "true" || first == "false") return {first == "true"};
+  return {first};
 }
 
 Node node_of(const Key& key, const std::string& option, const std::vector<std::string>& texts) {
@@ -101,6 +167,21 @@ Node node_of(const Key& key, const std::string& option, const std::vector<std::s
 
 }  // namespace
 
+std::string option_of(const std::string& key) {
+  std::string name = "--" + key;
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+std::string KeyOption::names() const {
+  const std::string plain = "--" + key.name;
+  return plain == name() ? name() : name() + "," + plain;
+}
+
+bool KeyOption::is_flag() const {
+  return key.type == KeyType::other && key.allowed.starts_with("true");
+}
+
 std::string KeyOption::type_name() const {
   return app::type_name(key);
 }
@@ -116,15 +197,28 @@ GivenKey KeyOption::given() const {
   GivenKey given{key, name() + joined(texts), {}};
   if (has_ranges(key))
     given.value = ranges_of(name(), texts);
+  else if (key.type == KeyType::other)
+    given.value = other_of(*this);
   else
     given.value = node_of(key, name(), texts);
   return given;
 }
 
 std::vector<KeyOption> options_of(const std::vector<Key>& keys) {
+  std::vector<std::string> given_with;
+  for (const Key& key : keys)
+    for (const std::string& other : scene::keys_next_to(key.type)) given_with.push_back(other);
   std::vector<KeyOption> options;
   for (const Key& key : keys)
-    if (key.type != KeyType::other) options.push_back({key});
+    if (std::find(given_with.begin(), given_with.end(), key.name) == given_with.end())
+      options.push_back({key});
+  Key each;
+  each.name = for_each;
+  each.help =
+      "repeat the study for each of some values, as damper.normal_load=1,3,10 or =0.1:100:31:log, and for "
+      "all "
+      "combinations where it is repeated; or the JSON of a scene";
+  options.push_back({each});
   return options;
 }
 

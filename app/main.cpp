@@ -40,7 +40,7 @@ ExitCode print(const Information& information) {
 
 void tell_faults(const std::string& file, const scene::SceneError& error) {
   for (const scene::Fault& fault : error.faults()) {
-    tell_line(results::visible(file) + ": " + results::visible(fault.pointer) +
+    tell_line((file.empty() ? "arcslip" : results::visible(file)) + ": " + results::visible(fault.pointer) +
               (fault.pointer.empty() ? "" : ": ") + fault.message);
   }
 }

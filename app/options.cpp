@@ -2,6 +2,7 @@
 
 #include "ensembles.hpp"
 #include "key_options.hpp"
+#include "new_scene.hpp"
 #include "option_values.hpp"
 
 #include <arcslip/results/text.hpp>
@@ -13,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace arcslip::app {
@@ -21,7 +23,8 @@ namespace {
 constexpr std::string_view exit_codes =
     "Exit codes: 0 done, 1 usage or file, 2 invalid scene, 3 stopped early with partial results written.";
 
-constexpr const char *run_verb = "run", *check_verb = "check", *reduce_verb = "reduce";
+constexpr const char *run_verb = "run", *check_verb = "check", *reduce_verb = "reduce", *new_verb = "new",
+                     *schema_verb = "schema";
 constexpr int most_threads = 1024;
 
 struct Verb {
@@ -57,16 +60,42 @@ std::vector<Verb> verbs_of(const scene::Catalogue& catalogue) {
   return verbs;
 }
 
-std::string names_of(const std::vector<Verb>& verbs) {
-  std::string names;
-  for (const Verb& verb : verbs) names.append(names.empty() ? "" : ", ").append(verb.name);
-  return names + " or schema";
+/// "a, b or c; did you mean b?"
+std::string one_of(const std::vector<std::string>& names, const std::string& word) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text.append(i == 0 ? "" : i + 1 == names.size() ? " or " : ", ").append(names[i]);
+  const std::string near = scene::nearest(word, names);
+  return text + (near.empty() ? "" : "; did you mean " + near + "?");
+}
+
+std::vector<std::string> names_of(const std::vector<Verb>& verbs) {
+  std::vector<std::string> names;
+  for (const Verb& verb : verbs) names.push_back(verb.name);
+  names.insert(names.end(), {new_verb, schema_verb});
+  return names;
+}
+
+/// Names the nearest option for one that the verb does not have.
+std::string hint_of_option(const CLI::App& verb, int argc, const char* const* argv) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : verb.get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (int i = 2; i < argc; ++i) {
+    std::string word = argv[i];
+    word = word.substr(0, word.find('='));
+    if (!word.starts_with("--") || std::find(known.begin(), known.end(), word) != known.end()) continue;
+    const std::string near = scene::nearest(word, known);
+    return near.empty() ? "" : "; did you mean " + near + "?";
+  }
+  return "";
 }
 
 /// Option values kept as text until parsing is complete.
 struct Texts {
   std::vector<std::string> set;
-  std::string harmonics, accuracy, combinations, threads;
+  std::string harmonics, accuracy, combinations, threads, columns, events;
+  std::map<std::string, std::string> numbers{};  // of a new scene, by their options
 };
 
 /// The options of every verb that takes a scene.
@@ -88,11 +117,16 @@ void add_scene_options(CLI::App& verb, CommandOptions& options, Texts& texts) {
 
 /// Keeps a reference to `of`, which must stay valid.
 void add_key_option(CLI::App& verb, KeyOption& of) {
-  CLI::Option* option = verb.add_option(of.name(), of.texts, of.help());
+  if (of.is_flag()) {
+    verb.add_flag(of.names() + "{true}", of.texts, of.help() + "; as --" + of.key.name + ", or with =VALUE")
+        ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+    return;
+  }
+  CLI::Option* option = verb.add_option(of.names(), of.texts, of.help());
   option->type_name(of.type_name())->allow_extra_args(false);  // what follows may be the scene
   if (of.key.type == scene::KeyType::window)
     option->expected(2);
-  else if (of.key.type == scene::KeyType::parameters)
+  else if (of.key.type == scene::KeyType::parameters || of.key.name == "for_each")
     option->expected(1)->take_all();
   else
     option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
@@ -130,6 +164,14 @@ void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts&
                   "maximum number of combinations of the values in for_each (default: " +
                       std::to_string(scene::usual_combinations) + ")")
       ->type_name("N");
+  verb.add_option(
+          "--columns", texts.columns,
+          "columns of the table on standard output and of --csv, as frequency,amplitude (default: a few "
+          "on standard output, all in --csv)")
+      ->type_name("NAME,NAME...");
+  verb.add_option("--events", texts.events,
+                  "kinds of events in these tables, as peak,fold, or none (default: all)")
+      ->type_name("KIND,KIND...");
   add_running_options(verb, options, texts);
 }
 
@@ -150,6 +192,66 @@ void add_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts& texts
   } else {
     add_study_options(verb, of, options, texts);
   }
+}
+
+/// The options of a kind of new scene.
+void add_new_options(CLI::App& app, const NewKind& kind, CommandOptions& options, Texts& texts) {
+  for (const std::string& file : kind.files)
+    app.add_option(file, options.new_texts[file], "matrix, in a format of a scene")
+        ->required()
+        ->type_name("");
+  for (const NewNumber& number : kind.numbers) {
+    const std::string unit = number.unit.empty() || number.unit == "-" ? "" : ", " + number.unit;
+    const bool has_default = std::isfinite(number.otherwise);
+    app.add_option("--" + number.name, texts.numbers[number.name],
+                   number.help + unit +
+                       (has_default ? " (default: " + results::shortest(number.otherwise) + ")" : ""))
+        ->type_name("X");
+  }
+  for (const NewText& text : kind.texts)
+    app.add_option("--" + text.name, options.new_texts[text.name], text.help)->type_name(text.value_name);
+  app.add_option("--out", options.out, "file to write, which must not exist (default: standard output)")
+      ->type_name("FILE");
+  app.footer(std::string(exit_codes));
+}
+
+/// Returns the kind that is asked for.
+CLI::App* add_new_verb(CLI::App& app, int argc, const char* const* argv, CommandOptions& options,
+                       Texts& texts) {
+  CLI::App* verb = app.add_subcommand(new_verb, "write a scene to begin with, with comments and studies");
+  verb->group("Verbs");
+  verb->require_subcommand(1);
+  verb->get_formatter()->label("SUBCOMMAND", "KIND");
+  verb->footer("Run arcslip new KIND --help for the numbers of a kind.");
+  for (const NewKind& kind : new_kinds()) {
+    CLI::App* of = verb->add_subcommand(kind.name, kind.help);
+    of->group("Kinds");
+    if (argc >= 3 && argv[1] == std::string(new_verb) && argv[2] == kind.name)
+      add_new_options(*of, kind, options, texts);
+  }
+  return verb;
+}
+
+void read_new(const CLI::App& of, const Texts& texts, CommandOptions& options) {
+  options.verb = new_verb;
+  options.new_kind = of.get_name();
+  std::erase_if(options.new_texts, [](const auto& text) { return text.second.empty(); });
+  const auto& kinds = new_kinds();
+  const auto kind = std::find_if(kinds.begin(), kinds.end(),
+                                 [&](const NewKind& each) { return each.name == options.new_kind; });
+  for (const NewNumber& number : kind->numbers) {
+    if (of.get_option("--" + number.name)->count() == 0) continue;
+    const std::string allowed =
+        std::string("a number ") + (number.lower_open ? "above 0" : "of at least 0") +
+        (std::isfinite(number.upper) ? ", at most " + results::shortest(number.upper) : "");
+    const std::string& text = texts.numbers.at(number.name);
+    const auto value = app::number("--" + number.name, text, allowed);
+    if (!value || *value < 0 || (number.lower_open && *value == 0) || *value > number.upper)
+      throw UsageError("--" + number.name + " " + text + ": must be " + allowed);
+    options.new_numbers.emplace(number.name, *value);
+  }
+  if (of.get_option("--out")->count() > 0 && options.out.empty())
+    throw UsageError("--out needs a nonempty name");
 }
 
 /// The number given for a key by an option, if any.
@@ -192,8 +294,23 @@ void check_values_given(const CLI::App& verb, const Texts& texts) {
   for (const auto& [option, text] : {std::pair{"--harmonics", &texts.harmonics},
                                      {"--accuracy", &texts.accuracy},
                                      {"--combinations", &texts.combinations},
-                                     {"--threads", &texts.threads}})
+                                     {"--threads", &texts.threads},
+                                     {"--columns", &texts.columns},
+                                     {"--events", &texts.events}})
     if (given(verb, option) && text->empty()) throw UsageError(std::string(option) + ": found no value");
+}
+
+/// "a,b" as a list.
+std::vector<std::string> names_in(const std::string& option, const std::string& text) {
+  std::vector<std::string> names(text.empty() ? 0 : 1);
+  for (const char c : text)
+    if (c == ',')
+      names.emplace_back();
+    else
+      names.back() += c;
+  if (std::find(names.begin(), names.end(), "") != names.end())
+    throw UsageError(option + " " + text + ": must be names with commas between them");
+  return names;
 }
 
 /// Reads the texts of the verb's options into their values.
@@ -207,8 +324,19 @@ void read_texts(const CLI::App& verb, const Verb& of, const Texts& texts, Comman
   if (options.threads && (*options.threads < 1 || *options.threads > most_threads))
     throw UsageError("--threads " + texts.threads + ": must be an integer from 1 to " +
                      std::to_string(most_threads));
+  options.columns = names_in("--columns", texts.columns);
+  options.events = names_in("--events", texts.events);
   for (const KeyOption& option : of.keys)
     if (given(verb, option.name())) options.keys.push_back(option.given());
+}
+
+[[noreturn]] void throw_kind(int argc, const char* const* argv) {
+  std::vector<std::string> names;
+  for (const NewKind& kind : new_kinds()) names.push_back(kind.name);
+  const std::string word = argc > 2 ? argv[2] : "";
+  throw UsageError(word.empty() ? "new needs a kind of scene: " + one_of(names, "")
+                                : "unknown kind of scene \"" + results::visible(word) + "\", must be " +
+                                      one_of(names, word));
 }
 
 }  // namespace
@@ -234,7 +362,9 @@ std::variant<CommandOptions, Information> parse(int argc, const char* const* arg
     if (argc >= 2 && each.name == argv[1]) add_options(*verb, each, options, texts);  // no others are needed
   }
 
-  CLI::App* const schema = app.add_subcommand("schema", "print the JSON Schema of scene files, for editors");
+  CLI::App* const fresh = add_new_verb(app, argc, argv, options, texts);
+  CLI::App* const schema =
+      app.add_subcommand(schema_verb, "print the JSON Schema of scene files, for editors");
   schema->group("Verbs");
 
   if (argc < 2)
@@ -248,12 +378,19 @@ std::variant<CommandOptions, Information> parse(int argc, const char* const* arg
   } catch (const CLI::ParseError& error) {
     const std::string first = argv[1];
     if (app.get_subcommands().empty() && !first.empty() && first.front() != '-') {
-      throw UsageError("unknown verb \"" + results::visible(first) + "\", must be " + names_of(verbs) + "\n" +
-                       hint);
+      throw UsageError("unknown verb \"" + results::visible(first) + "\", must be " +
+                       one_of(names_of(verbs), first) + "\n" + hint);
     }
-    throw UsageError(results::visible(error.what()) + "\n" + hint);
+    if (first == new_verb && fresh->get_subcommands().empty()) throw_kind(argc, argv);
+    const CLI::App* parsed = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
+    if (parsed == fresh) parsed = fresh->get_subcommands().front();
+    throw UsageError(results::visible(error.what() + hint_of_option(*parsed, argc, argv)) + "\n" + hint);
   }
   const CLI::App* verb = app.get_subcommands().front();
+  if (verb == fresh) {
+    read_new(*verb->get_subcommands().front(), texts, options);
+    return options;
+  }
   check_values_given(*verb, texts);
   if (verb == schema) return Information{scene::json_schema(catalogue)};
   const Verb& chosen = *verb_of.at(verb);

@@ -8,6 +8,7 @@
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/study_type.hpp>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -43,11 +44,15 @@ struct CommandOptions {
   std::vector<std::pair<std::string, double>> set;  // parameter and value
   std::optional<int> harmonics;
   std::optional<double> accuracy;
-  std::vector<GivenKey> keys;       // of the study; run: of its frequency responses
-  std::string out, json, csv;       // paths, "-" for standard output (json, csv), "" for none
-  std::string report;               // path; "": run writes it to its folder, other verbs none
-  std::optional<int> combinations;  // of for_each, maximum
-  std::optional<int> threads;       // combinations computed at the same time
+  std::vector<GivenKey> keys;                    // of the study; run: of its frequency responses
+  std::string out, json, csv;                    // paths, "-" for standard output (json, csv), "" for none
+  std::string report;                            // path; "": run writes it to its folder, other verbs none
+  std::optional<int> combinations;               // of for_each, maximum
+  std::optional<int> threads;                    // combinations computed at the same time
+  std::vector<std::string> columns, events;      // of tables; empty: as they are
+  std::string new_kind;                          // of the verb new
+  std::map<std::string, double> new_numbers;     // by their options, those that are given
+  std::map<std::string, std::string> new_texts;  // names, and files by what stands for them in the usage
   EnsembleOptions ensemble;
   bool coefficients = false;
   bool quiet = false;

@@ -1,6 +1,7 @@
 #include "resolve.hpp"
 
 #include "interrupt.hpp"
+#include "key_options.hpp"
 
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/format/scene_file.hpp>
@@ -90,7 +91,7 @@ void check_parameter(const scene::Scene& scene, const std::string& option, const
 
 void check_parameters(const scene::Scene& scene, const CommandOptions& options) {
   for (const GivenKey& given : options.keys) {
-    const std::string option = "--" + given.key.name;
+    const std::string option = option_of(given.key.name);
     check_parameter(scene, option, parameter_of(given));
     if (const auto* ranges = std::get_if<std::vector<RangeOption>>(&given.value))
       for (const RangeOption& each : *ranges) check_parameter(scene, option, each.parameter);
@@ -120,7 +121,7 @@ void add_parameters(const GivenKey& given, const Node::Object& own, std::vector<
     for (std::size_t i = 0; i < own_names.size(); ++i)
       if (*own_names[i].get<std::string>() == each.parameter) known = &(*bounds->get<Node::List>())[i];
     if (!each.range && known == nullptr) {
-      const std::string option = "--" + given.key.name + " " + each.parameter;
+      const std::string option = option_of(given.key.name) + " " + each.parameter;
       throw UsageError(option + ": no bounds given; give them as " + option + "=lower:upper");
     }
     all_names.push_back({each.parameter});
@@ -133,7 +134,7 @@ void add_parameters(const GivenKey& given, const Node::Object& own, std::vector<
 void add_followed(const GivenKey& given, std::vector<Member>& keys) {
   const RangeOption& one = std::get<std::vector<RangeOption>>(given.value).front();
   if (!one.range) {
-    const std::string option = "--" + given.key.name + " " + one.parameter;
+    const std::string option = option_of(given.key.name) + " " + one.parameter;
     throw UsageError(option + ": no range given; give it as " + option + "=from:to");
   }
   keys.push_back({given.key.name, {one.parameter}});
@@ -176,7 +177,7 @@ void check_set(const std::vector<Key>& known, const std::vector<Member>& keys,
         throw UsageError(
             "--set " + parameter + "=" + results::shortest(value) + ": the study " +
             (key.type == KeyType::followed
-                 ? "continues the optimum over this parameter; give --" + key.name + " for its range"
+                 ? "continues the optimum over this parameter; give " + option_of(key.name) + " for its range"
                  : "varies this parameter; give --from and --to for its range"));
       }
     }
@@ -214,11 +215,11 @@ std::string option_at(const std::string& place, const CommandOptions& options) {
     const auto* ranges = std::get_if<std::vector<RangeOption>>(&given.value);
     if (ranges == nullptr) {
       const auto* number = std::get<Node>(given.value).get<double>();
-      return number != nullptr ? "--" + given.key.name + " " + results::shortest(*number) : given.text;
+      return number != nullptr ? option_of(given.key.name) + " " + results::shortest(*number) : given.text;
     }
     const std::string index = place.find('/') == std::string::npos ? "0" : place.substr(place.find('/') + 1);
     const std::size_t i = std::min<std::size_t>(std::strtoul(index.c_str(), nullptr, 10), ranges->size() - 1);
-    return "--" + given.key.name + " " + (*ranges)[i].parameter;
+    return option_of(given.key.name) + " " + (*ranges)[i].parameter;
   }
   return "";
 }
@@ -253,7 +254,7 @@ void check_complete(const CommandOptions& options, bool is_new, const std::strin
   for (const Key& key : options.type->keys()) {
     const bool is_wanted = is_new ? key.required && key.type != KeyType::other : key.type == KeyType::value;
     if (is_wanted && find(options, key.name) == nullptr)
-      missing.push_back("--" + key.name + (key.type == KeyType::parameters ? " with bounds" : ""));
+      missing.push_back(option_of(key.name) + (key.type == KeyType::parameters ? " with bounds" : ""));
   }
   if (!missing.empty()) {
     throw UsageError("the scene has no study of kind " + std::string(options.type->name()) +

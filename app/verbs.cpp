@@ -3,6 +3,7 @@
 #include "ensembles.hpp"
 #include "interrupt.hpp"
 #include "message.hpp"
+#include "new_scene.hpp"
 #include "resolve.hpp"
 #include "results.hpp"
 #include "results_folder.hpp"
@@ -113,6 +114,26 @@ ExitCode compute(scene::Scene& scene, std::size_t first, std::size_t last, const
   return run_studies(scene, studies, options, notes);
 }
 
+/// A scene to begin with, on standard output or in a file that does not exist yet.
+ExitCode write_new(const CommandOptions& options, const scene::Catalogue& catalogue) {
+  NewScene made = new_scene(options, catalogue, by_signal());
+  if (options.out.empty()) {
+    StandardOutput screen;
+    screen.write_lines([&](std::ostream& out) { out << made.text; });
+    screen.finish();
+    return ExitCode::done;
+  }
+  made.files.emplace_back(options.out, made.text);
+  for (const auto& [path, text] : made.files)
+    if (std::filesystem::exists(path))
+      throw UsageError(results::visible(path) + " exists: choose another name for the scene, or remove it");
+  Writing writing;
+  for (const auto& [path, text] : made.files)
+    writing.attempt(results::visible(path),
+                    [&] { output::write_file(path, [&](std::ostream& out) { out << text; }, by_signal()); });
+  return writing.code(ExitCode::done);
+}
+
 ExitCode run_scene(scene::Scene scene, CommandOptions options) {
   if (scene.studies.empty()) {
     throw UsageError(
@@ -140,6 +161,7 @@ ExitCode run_scene(scene::Scene scene, CommandOptions options) {
 
 ExitCode execute(const CommandOptions& options, const scene::Catalogue& catalogue) {
   if (options.verb == merge_verb) return merge_ensemble(options);
+  if (options.verb == "new") return write_new(options, catalogue);
   scene::Scene scene = resolve(options, catalogue);
   for (const std::string& doubt : scene::manifest_doubts(scene, options.scene).changed) tell(doubt);
   if (const std::string done = observables::prepare(scene, by_signal()); !done.empty() && !options.quiet)

@@ -235,6 +235,15 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+// The first "part.field" whose field is the word, for a parameter that is given without its part.
+std::string with_field(std::string_view word, std::span<const std::string> known) {
+  const auto found = std::find_if(known.begin(), known.end(), [&](const std::string& candidate) {
+    const auto point = candidate.rfind('.');
+    return point != std::string::npos && std::string_view(candidate).substr(point + 1) == word;
+  });
+  return found != known.end() ? *found : "";
+}
+
 }  // namespace
 
 std::string nearest(std::string_view word, std::span<const std::string> known) {
@@ -251,7 +260,7 @@ std::string nearest(std::string_view word, std::span<const std::string> known) {
       best = candidate;
     }
   }
-  return best;
+  return best.empty() ? with_field(word, known) : best;
 }
 
 }  // namespace arcslip::scene

@@ -55,6 +55,7 @@ std::vector<ValuesTaken> ranges_of(const scene::Scene& scene, const scene::Study
 }
 
 std::optional<scene::WindowEnds> window_of(scene::Study& study) {
+  if (study.settings.empty()) study.settings = study.type->settings().defaults();
   return study.type->settings().window(study.settings);
 }
 
@@ -85,7 +86,6 @@ std::string propose_window(scene::Scene& scene, std::size_t index, const control
           "found no window of frequencies, and none can be proposed, since no natural frequency is known "
           "that the excitation drives and in which the response moves (of a rotor, or above 1000 degrees of "
           "freedom, none are computed): give the window"}});
-  if (study.settings.empty()) study.settings = study.type->settings().defaults();
   const auto window = window_of(study);
   *window->lower = proposed->lower;
   *window->upper = proposed->upper;

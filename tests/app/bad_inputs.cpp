@@ -129,10 +129,10 @@ std::vector<BadInput> make() {
            "--to must be above 18 Hz, where the study \"frf\" begins; found 1 Hz"),
       line("--from 0", {"frf", "scene.json", "--from", "0"}, "must be a frequency above 0"),
       line("--from that is no number", {"frf", "scene.json", "--from", "low"}, "must be a frequency above 0"),
-      {"frf without a study and without a range",
-       {"frf", "bare.json"},
+      {"frf with half a range",
+       {"frf", "bare.json", "--from", "1"},
        1,
-       "give --from and --to",
+       "with the options, /studies/0/to: found no key \"to\", which is required: must be above 0 Hz",
        "bare.json",
        [] { return scene_with(structure("1", "100"), ""); }},
       {"run without a study",
@@ -143,8 +143,8 @@ std::vector<BadInput> make() {
        [] { return scene_with(structure("1", "100"), ""); }},
       // studies over a parameter
       bare("peaks without a study", {"peaks", "bare.json"},
-           "the scene has no study of kind peaks: give --over, --from, --to and "
-           "--frequency, or add such a study to the scene"),
+           "the scene has no study of kind peaks: give --over, --from and --to, or "
+           "add such a study to the scene"),
       bare("trace without a study, half reported", {"trace", "bare.json", "--over", "k.value", "--to", "200"},
            "the scene has no study of kind trace: give --from and --frequency"),
       peaks("--over another parameter than the study's", {"--over", "m.value"},

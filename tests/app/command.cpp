@@ -211,8 +211,13 @@ TEST_CASE("check prints the resolved scene, which is a fixed point") {
   const Ended first =
       run(place, {"check", "scene.json", "--set", "damper.normal_load=7", "--harmonics", "3"});
   CHECK(first.exit_code == 0);
-  // sqrt(k/m) and sqrt((k + k_d)/m)
-  CHECK(first.err == "arcslip: natural frequencies with all contacts free: 19.117 Hz; stuck: 20.903 Hz\n");
+  // sqrt(k/m) and sqrt((k + k_d)/m); c/(2 m omega); F/k and F/(k + k_d)
+  CHECK(first.err ==
+        "arcslip: mass: 1.24 kg at \"blade\"\n"
+        "arcslip: natural frequencies with all contacts free: 19.117 Hz; stuck: 20.903 Hz\n"
+        "arcslip: damping ratios of these modes, without friction, free: 0.045 %; stuck: 0.0411 %\n"
+        "arcslip: static deflection of the response under the amplitude of the forces: 55.9 \u00b5m with all "
+        "contacts free, 46.75 \u00b5m stuck\n");
   const Json scene = Json::parse(first.out);
   CHECK(scene["harmonics"]["order"] == 3);
   CHECK(scene["elements"][0]["normal_load"] == 7.0);
@@ -221,6 +226,66 @@ TEST_CASE("check prints the resolved scene, which is a fixed point") {
   CHECK(run(place, {"check", "resolved.json"}).out == first.out);
   const Ended quiet = run(place, {"check", "resolved.json", "--quiet"});
   CHECK((quiet.out + quiet.err).empty());
+}
+
+TEST_CASE("check reports what is likely wrong with a scene") {
+  const Workplace place;
+  Json scene = Json::parse(place.read("scene.json"));
+  scene["studies"] = {{{"name", "far"}, {"kind", "frf"}, {"from", 100}, {"to", 200}}};
+  place.write("far.json", scene.dump());
+  const Ended ended = run(place, {"check", "far.json"});
+  CHECK(ended.exit_code == 0);
+  CHECK(ended.err.find(
+            "arcslip: check this: the window of the study \"far\", 100 Hz to 200 Hz, has no resonance "
+            "of small motions: ") != std::string::npos);
+  CHECK(Json::parse(ended.out)["studies"][0]["from"] == 100.0);
+}
+
+TEST_CASE("windows that a scene leaves out are proposed, told, in the resolved scene and in the results") {
+  const Workplace place;
+  Json scene = Json::parse(place.read("scene.json"));
+  for (const char* key : {"from", "to"}) scene["studies"][0].erase(key);
+  for (const int study : {1, 2}) scene["studies"][study].erase("frequency");
+  place.write("open.json", scene.dump());
+  // kappa = 3500/17890: margins of 3 kappa/(2 pi) = 9.34 % around 19.117 Hz and 20.903 Hz.
+  const std::string proposed =
+      "was proposed: 17.3 Hz to 22.9 Hz, around the first resonance, 19.117 Hz with all contacts free and "
+      "20.903 "
+      "Hz stuck, with margins of 9.3 %";
+  const Ended checked = run(place, {"check", "open.json"});
+  CHECK(checked.exit_code == 0);
+  for (const char* study : {"frf", "peaks", "best load"})
+    CHECK(checked.err.find("arcslip: the window of the study \"" + std::string(study) + "\" " + proposed) !=
+          std::string::npos);
+  const Json resolved = Json::parse(checked.out)["studies"];
+  CHECK(resolved[0]["from"] == 17.3);
+  CHECK(resolved[0]["to"] == 22.9);
+  for (const int study : {1, 2}) CHECK(resolved[study]["frequency"] == Json{17.3, 22.9});
+  const Ended quiet = run(place, {"optimize", "open.json", "--json", "-", "--harmonics", "7", "--quiet"});
+  CHECK(quiet.exit_code == 0);
+  CHECK(quiet.err.empty());
+  const Json results = Json::parse(quiet.out);
+  CHECK(results["notes"] == Json{"the window of the study \"best load\" " + proposed});
+  const Ended ran = run(place, {"run", "open.json", "--harmonics", "1", "--out", "out"});
+  CHECK(ran.err.find(proposed) != std::string::npos);
+  CHECK(Json::parse(place.read("out/frf.scene.json"))["studies"][0]["to"] == 22.9);
+  CHECK(place.read("out/report.html").find("Note: the window of the study &quot;frf&quot; was proposed") !=
+        std::string::npos);
+}
+
+TEST_CASE("where no resonance is known a window has to be given") {
+  const Workplace place;
+  Json scene = Json::parse(place.read("scene.json"));
+  scene["studies"] = {{{"kind", "frf"}}};
+  scene["excitation"][0]["cosine"] = 0;
+  place.write("still.json", scene.dump());
+  for (const char* verb : {"check", "run", "frf"}) {
+    const Ended ended = run(place, {verb, "still.json"});
+    CHECK(ended.exit_code == 2);
+    CHECK(
+        ended.err.find("still.json: /studies/0: found no window of frequencies, and none can be proposed") !=
+        std::string::npos);
+  }
 }
 
 TEST_CASE("harmonics beyond a reduction are reported with the scene, with its results and in them") {

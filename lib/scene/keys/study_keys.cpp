@@ -92,8 +92,10 @@ void visit_pair(const std::string& pointer, std::pair<double, double>& both, con
 }
 
 KeyGroup<std::pair<double, double>> frequency_range() {
-  return {{{"from", KeyType::frequency, "frequency", "above 0", "", false, "first frequency"},
-           {"to", KeyType::frequency, "frequency", "above \"from\"", "", false, "last frequency"}},
+  return {{{"from", KeyType::frequency, "frequency", "above 0", "", false,
+            "first frequency, by default one that is proposed"},
+           {"to", KeyType::frequency, "frequency", "above \"from\"", "", false,
+            "last frequency, by default one that is proposed"}},
           [](const Reading& reading, std::pair<double, double>& range) {
             if (!reading.keys.has("from") && !reading.keys.has("to")) return;
             range = read_range(reading, reading.frequency);
@@ -143,7 +145,7 @@ KeyGroup<RangeOver> range_over() {
 
 KeyGroup<std::pair<double, double>> window() {
   return {{{"frequency", KeyType::window, "frequency", "[lower, upper], 0 < lower < upper", "", false,
-            "the frequency window"}},
+            "the frequency window, by default one that is proposed"}},
           [](const Reading& reading, std::pair<double, double>& ends) {
             const std::string wanted =
                 "a window [lower, upper] of two frequencies, each " + allowed_text(reading.frequency);

@@ -257,8 +257,6 @@ void add_studies_over_a_parameter(std::vector<BadScene>& rows) {
   add("trace at zero frequency", trace + "\"frequency\": 0", "frequency", "found 0, must be above 0 Hz");
   add("one frequency in place of a window", kind + over + range + "\"frequency\": 1.5", "frequency",
       "found 1.5 (a number), must be a window [lower, upper] of two frequencies, each above 0 Hz");
-  add("no window", kind + over + "\"from\": 1, \"to\": 2", "frequency",
-      "found no key \"frequency\", which is required: must be a window [lower, upper] of two frequencies");
   add("window of three frequencies", kind + over + range + "\"frequency\": [1, 2, 3]", "frequency",
       "found a list of 3, must be a window [lower, upper] of two frequencies");
   add("window from zero", kind + over + range + "\"frequency\": [0, 2]", "frequency/0",
