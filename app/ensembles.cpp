@@ -1,11 +1,11 @@
 #include "ensembles.hpp"
 
 #include "interrupt.hpp"
-#include "message.hpp"
-#include "option_values.hpp"
-#include "progress.hpp"
-#include "results.hpp"
-#include "standard_output.hpp"
+#include "output/message.hpp"
+#include "command_line/option_values.hpp"
+#include "output/progress.hpp"
+#include "output/results.hpp"
+#include "output/standard_output.hpp"
 
 #include <arcslip/ensemble/ensemble.hpp>
 #include <arcslip/output/atomic_file.hpp>

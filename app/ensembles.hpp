@@ -2,7 +2,7 @@
 // The verbs "ensemble" and "merge": many samples of a study in one file.
 
 #include "exit_code.hpp"
-#include "options.hpp"
+#include "command_line/options.hpp"
 
 #include <arcslip/scene/scene.hpp>
 

@@ -1,10 +1,10 @@
 // The command arcslip: see arcslip --help.
 
+#include "command_line/options.hpp"
 #include "exit_code.hpp"
 #include "interrupt.hpp"
-#include "message.hpp"
-#include "options.hpp"
-#include "standard_output.hpp"
+#include "output/message.hpp"
+#include "output/standard_output.hpp"
 #include "verbs.hpp"
 
 #include <arcslip/control/run_control.hpp>

@@ -154,8 +154,8 @@ std::vector<Object> studies_of_load(const std::string& load, double balance) {
            {"comment", node("the load with the lowest resonance peak, with a certificate")}}};
 }
 
-constexpr const char* how_to_go_on =
-    "Written by arcslip new, in kg, m, s and N. Change any number; arcslip check tells what the model is, "
+constexpr const char* how_to_continue =
+    "Written by arcslip new, in kg, m, s and N. Change any number; arcslip check describes the model, "
     "and "
     "arcslip run writes results and report.html";
 
@@ -164,7 +164,7 @@ Object damper(const Given& of) {
   const Derived contact = derived(of("contact-stiffness-ratio") * k,
                                   results::shortest(of("contact-stiffness-ratio")) + "*k"),
                 load = derived(of("force") / of("friction"), "force/friction");
-  Object root = head("A mass with a friction damper", how_to_go_on);
+  Object root = head("A mass with a friction damper", how_to_continue);
   root.push_back({"structure", {one_mass("mass", mass, of("frequency"), of("damping-ratio"))}});
   root.push_back(
       {"elements", list({{{"name", node("damper")},
@@ -203,7 +203,7 @@ Object beam(const Given& of) {
   Object points;
   if (place != "tip") points.push_back({place, node(at)});
   points.push_back({"tip", node(length)});
-  Object root = head("A cantilever beam with a friction damper", how_to_go_on);
+  Object root = head("A cantilever beam with a friction damper", how_to_continue);
   root.push_back(
       {"structure",
        {Object{{"beam",
@@ -247,7 +247,7 @@ Object duffing(const Given& of) {
   const double mass = of("mass"), w = circle * of("frequency"), k = mass * w * w;
   const double linear =
       of("force") / (2 * of("damping-ratio") * k);  // at resonance, without the cubic spring
-  Object root = head("A Duffing oscillator", how_to_go_on);
+  Object root = head("A Duffing oscillator", how_to_continue);
   root.push_back({"structure", {one_mass("x", mass, of("frequency"), of("damping-ratio"))}});
   root.push_back(
       {"elements",
@@ -291,7 +291,7 @@ Object contact(const Given& of) {
       {"dampers",
        list({{{"name", node("c")}, {"at", node("slide")}, {"damping_ratio", node(of("damping-ratio"))}},
              {{"name", node("c2")}, {"at", node("press")}, {"damping_ratio", node(of("damping-ratio"))}}})}};
-  Object root = head("A mass that slides and presses on a contact", how_to_go_on);
+  Object root = head("A mass that slides and presses on a contact", how_to_continue);
   root.push_back({"structure", {structure}});
   root.push_back(
       {"elements", list({{{"name", node("contact")},
@@ -321,7 +321,7 @@ Object joint(const Given& of) {
   const double of_joint = of("joint-stiffness-ratio") * k;
   const Derived stiffness = derived(of_joint, results::shortest(of("joint-stiffness-ratio")) + "*k");
   const double slip = of("slip-force") / of_joint;  // deflection of the joint at macroslip, without microslip
-  Object root = head("A mass on a joint with microslip", how_to_go_on);
+  Object root = head("A mass on a joint with microslip", how_to_continue);
   root.push_back({"structure", {one_mass("mass", mass, of("frequency"), of("damping-ratio"))}});
   root.push_back(
       {"elements",
@@ -409,7 +409,7 @@ Object from_matrices(const Given& of, NewScene& scene) {
                                            {"type", node("modal")},
                                            {"ratio", node(of("damping-ratio"))},
                                            {"comment", node("damping ratio of each mode")}}})});
-  Object root = head("A structure from matrices", how_to_go_on);
+  Object root = head("A structure from matrices", how_to_continue);
   root.push_back({"structure", {structure}});
   const bool has_contact = !rows.contact.empty();
   const double balance = of("force") / of("friction");

@@ -1,7 +1,7 @@
 #pragma once
 // Scenes to begin with: arcslip new KIND.
 
-#include "options.hpp"
+#include "command_line/options.hpp"
 
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/scene/study_type.hpp>

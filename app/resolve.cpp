@@ -1,7 +1,7 @@
 #include "resolve.hpp"
 
+#include "command_line/key_options.hpp"
 #include "interrupt.hpp"
-#include "key_options.hpp"
 
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/format/scene_file.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 // The scene to run: that of the file, modified by --set, --harmonics and the options of a study.
 
-#include "options.hpp"
+#include "command_line/options.hpp"
 
 #include <arcslip/scene/scene.hpp>
 

@@ -1,12 +1,13 @@
 #include "studies_run.hpp"
 
 #include "interrupt.hpp"
-#include "message.hpp"
-#include "progress.hpp"
-#include "results.hpp"
-#include "results_folder.hpp"
-#include "sinks.hpp"
-#include "standard_output.hpp"
+#include "output/message.hpp"
+#include "output/progress.hpp"
+#include "output/results.hpp"
+#include "output/results_folder.hpp"
+#include "output/selection.hpp"
+#include "output/sinks.hpp"
+#include "output/standard_output.hpp"
 
 #include <arcslip/control/progress.hpp>
 #include <arcslip/output/atomic_file.hpp>
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <span>
@@ -132,12 +134,21 @@ std::vector<results::FigureData> compute_visibly(const scene::Scene& scene, cons
   return figures;
 }
 
+/// Makes a sink for the columns and events that the user asks for.
+decltype(File::sink) selected(decltype(File::sink) whole, const Selection& selection) {
+  if (selection.empty()) return whole;
+  return [whole = std::move(whole), selection](std::ostream& out) {
+    return std::make_unique<Selected>(whole(out), selection, true);
+  };
+}
+
 /// The files for the results of all studies together.
 std::vector<File> common_files(const CommandOptions& options, std::span<const results::Schema> schemas) {
   std::vector<File> files;
   if (!options.json.empty()) files.push_back(json_file(options.json));
   if (!options.csv.empty()) {
     std::vector<File> csv = csv_files(options.csv, schemas);
+    for (File& file : csv) file.sink = selected(std::move(file.sink), {options.columns, options.events});
     std::move(csv.begin(), csv.end(), std::back_inserter(files));
   }
   return files;
@@ -254,7 +265,7 @@ class StudiesRun {
         held_(prepare_places(options, scene, studies, files_)),
         header_(header_of(scene, notes)),
         schemas_(schemas_of(scene, studies, how_)),
-        common_(options, header_, schemas_) {
+        common_(checked(options, schemas_), header_, schemas_) {
     if (report_path(options).empty()) return;
     report_.emplace(scene, studies);
     report_->begin(header_, schemas_);
@@ -280,6 +291,12 @@ class StudiesRun {
             .threads = options.threads.value_or(processors)};
   }
 
+  static const CommandOptions& checked(const CommandOptions& options,
+                                       const std::vector<results::Schema>& schemas) {
+    check_selection({options.columns, options.events}, schemas);
+    return options;
+  }
+
   static std::vector<results::Schema> schemas_of(const scene::Scene& scene,
                                                  const std::vector<scene::Study>& studies,
                                                  const studies::RunOptions& how) {
@@ -298,7 +315,8 @@ class StudiesRun {
   void run_study(std::size_t i) {
     any_begun_ = true;
     if (studies_.size() > 1) tables_ << (i > 0 ? "\n" : "") << studies_[i].name << '\n';
-    results::TableWriter table(tables_);
+    Selected table(std::make_unique<results::TableWriter>(tables_), {options_.columns, options_.events},
+                   false);
     results::Remarks remarks;
     OpenFiles own(options_.out.empty() ? std::vector<File>() : own_files(files_[i], schemas_[i]));
     OneOfSeveral among(common_.sink(), i);

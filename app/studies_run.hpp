@@ -1,8 +1,8 @@
 #pragma once
 // Studies with all that a run leaves: files, tables, the report and remarks.
 
+#include "command_line/options.hpp"
 #include "exit_code.hpp"
-#include "options.hpp"
 
 #include <arcslip/scene/scene.hpp>
 

@@ -2,12 +2,13 @@
 
 #include "ensembles.hpp"
 #include "interrupt.hpp"
-#include "message.hpp"
 #include "new_scene.hpp"
+#include "output/message.hpp"
+#include "output/results.hpp"
+#include "output/results_folder.hpp"
+#include "output/standard_output.hpp"
 #include "resolve.hpp"
-#include "results.hpp"
-#include "results_folder.hpp"
-#include "standard_output.hpp"
+#include "result_file.hpp"
 #include "studies_run.hpp"
 
 #include <arcslip/analyses/branches/model_description.hpp>
@@ -162,6 +163,9 @@ ExitCode run_scene(scene::Scene scene, CommandOptions options) {
 ExitCode execute(const CommandOptions& options, const scene::Catalogue& catalogue) {
   if (options.verb == merge_verb) return merge_ensemble(options);
   if (options.verb == "new") return write_new(options, catalogue);
+  if (options.verb == "show") return show_results(options);
+  if (options.verb == "plot") return plot_results(options);
+  if (options.verb == "compare") return compare_results(options);
   scene::Scene scene = resolve(options, catalogue);
   for (const std::string& doubt : scene::manifest_doubts(scene, options.scene).changed) tell(doubt);
   if (const std::string done = observables::prepare(scene, by_signal()); !done.empty() && !options.quiet)

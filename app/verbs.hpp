@@ -1,7 +1,7 @@
 #pragma once
 
+#include "command_line/options.hpp"
 #include "exit_code.hpp"
-#include "options.hpp"
 
 namespace arcslip::app {
 

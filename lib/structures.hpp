@@ -4,6 +4,7 @@
 
 #include <arcslip/analyses/branches/parameter_trace.hpp>
 #include <arcslip/analyses/branches/phase_resonance.hpp>
+#include <arcslip/analyses/branches/proposed_window.hpp>
 #include <arcslip/analyses/branches/stop_reason.hpp>
 #include <arcslip/analyses/curves/bifurcation_curve.hpp>
 #include <arcslip/analyses/curves/bifurcations.hpp>

@@ -68,6 +68,11 @@ std::string title(std::span<const std::string> path, const std::string& unit) {
   return with_unit(text, unit);
 }
 
+/// "multipliers.1.re"
+std::string title_of_pair(const Column& column, int i, const char* part) {
+  return title(column.path, "") + "." + std::to_string(i + 1) + "." + part;
+}
+
 void add(const std::string& title, std::vector<std::string>& titles) {
   if (std::find(titles.begin(), titles.end(), title) == titles.end()) titles.push_back(title);
 }
@@ -89,7 +94,11 @@ void CsvWriter::begin(const Header& /*header*/, std::span<const Schema> schemas)
     for (const Column& column : schema.set) add(title(column.path, column.unit), set_);
     add(schema.noun, nouns);
     if (const Table* table = table_of(schema, key_))
-      for (const Column& column : table->columns) add(title(column.path, column.unit), columns_);
+      for (const Column& column : table->columns) {
+        add(title(column.path, column.unit), columns_);
+        for (int i = 0; i < column.spread; ++i)
+          for (const char* part : {"re", "im"}) add(title_of_pair(column, i, part), columns_);
+      }
   }
   // The continuation parameter of one study may be set by for_each in another.
   std::erase_if(set_, [&](const std::string& name) {
@@ -118,6 +127,19 @@ void CsvWriter::curve(const Head& head, std::size_t schema) {
     first_ += "," + (noun == schemas_[schema].noun ? std::to_string(number) : "");
 }
 
+void CsvWriter::put_pairs(const Column& column, const Value& list, std::vector<std::string>& cells) const {
+  const auto* pairs = std::get_if<Value::List>(&list.get());
+  const auto put = [&](int i, const char* part, double value) {
+    const auto found = std::find(columns_.begin(), columns_.end(), title_of_pair(column, i, part));
+    cells[static_cast<std::size_t>(found - columns_.begin())] = cell(value);
+  };
+  for (int i = 0; pairs != nullptr && i < column.spread && i < static_cast<int>(pairs->size()); ++i)
+    if (const auto* pair = std::get_if<Value::Numbers>(&(*pairs)[static_cast<std::size_t>(i)].get())) {
+      put(i, "re", pair->at(0));
+      put(i, "im", pair->at(1));
+    }
+}
+
 void CsvWriter::rows(std::size_t table, const Rows& rows) {
   const Table& of = schemas_[schema_].tables[table];
   if (of.key != key_) return;
@@ -141,6 +163,9 @@ void CsvWriter::rows(std::size_t table, const Rows& rows) {
             cells[place[c]] = cell(static_cast<const Cell&>(list[i]));
           },
           column.of);
+      if (const auto* values = std::get_if<std::vector<Value>>(&column.of);
+          values && of.columns[c].spread > 0)
+        put_pairs(of.columns[c], (*values)[i], cells);
     }
     out_ << first_;
     for (const std::string& each : cells) out_ << ',' << each;

@@ -5,7 +5,7 @@
 // Columns: "study"; the parameters set by for_each; the number of the result, from 1, titled by the noun of
 // its schema; then those of the table: a column's path joined by dots, without "elements", and its unit,
 // "damper.stick_percent (%)". A missing value is an empty cell, a flag true or false, a list or an object
-// its JSON.
+// its JSON. Next to a list of pairs the first ones have columns of their own: "multipliers.1.re".
 
 #include <arcslip/results/result.hpp>
 
@@ -30,6 +30,8 @@ class CsvWriter : public Sink {
  private:
   std::ostream& out_;
   std::string key_;
+  void put_pairs(const Column& column, const Value& list, std::vector<std::string>& cells) const;
+
   std::vector<Schema> schemas_;
   std::vector<std::string> set_, columns_;   // titles
   std::size_t schema_ = 0;                   // of the current result

@@ -207,6 +207,45 @@ class JsonWriter::TableText {
   const char* separator_ = "\n";
 };
 
+namespace {
+
+Object units_of(std::span<const Column> columns) {
+  Object units;
+  for (const Column& column : columns)
+    if (!column.unit.empty() && column.unit != "-") units.push_back({name(column), column.unit});
+  return units;
+}
+
+/// By list, table and column; of several schemas of one list together.
+Object units_of(std::span<const Schema> schemas) {
+  Object lists;
+  const auto add = [](Object to, const Object& more) {
+    for (const Member& each : more)
+      if (std::none_of(to.begin(), to.end(), [&](const Member& is) { return is.key == each.key; }))
+        to.push_back(each);
+    return to;
+  };
+  const auto at = [](Object& of, const std::string& key) -> Object& {
+    auto found = std::find_if(of.begin(), of.end(), [&](const Member& member) { return member.key == key; });
+    if (found == of.end()) found = of.insert(of.end(), {key, Object()});
+    return found->value.members();
+  };
+  for (const Schema& schema : schemas) {
+    if (Object set = units_of(schema.set); !set.empty()) {
+      Object& known = at(at(lists, schema.list), "set");
+      known = add(known, set);
+    }
+    for (const Table& table : schema.tables)
+      if (Object units = units_of(table.columns); !units.empty()) {
+        Object& known = at(at(lists, schema.list), table.key);
+        known = add(known, units);
+      }
+  }
+  return lists;
+}
+
+}  // namespace
+
 JsonWriter::JsonWriter(std::ostream& out) : out_(out) {}
 JsonWriter::~JsonWriter() = default;
 
@@ -222,6 +261,7 @@ void JsonWriter::begin(const Header& header, std::span<const Schema> schemas) {
        << ",\n\"frequency_unit\": " << json_quoted(header.frequency_unit);
   if (!header.notes.empty())
     out_ << ",\n\"notes\": " << json(Value::List(header.notes.begin(), header.notes.end()));
+  if (const Object units = units_of(schemas_); !units.empty()) out_ << ",\n\"units\": " << json(units);
   if (!header.reduction.empty()) out_ << ",\n\"reduction\": " << json(header.reduction);
 }
 

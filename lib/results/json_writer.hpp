@@ -8,16 +8,16 @@
 
 namespace arcslip::results {
 
-/// Writes one object: {"format", "program", "scene_hash", "title", "frequency_unit", "notes", "reduction",
-/// LIST: [R,
-/// ...]}, and so for each list; its format is that of the schemas if they agree, else "arcslip-results-1".
-/// The results of a list must be consecutive. A list with one result is followed by its Schema::next to. Here
+/// Writes one object: {"format", "program", "scene_hash", "title", "frequency_unit", "notes", "units",
+/// "reduction", LIST: [R, ...]}, and so for each list; "units" are those of columns, by list, table and name;
+/// its format is that of the schemas if they agree, else "arcslip-results-1". The results of a list must be
+/// consecutive. A list with one result is followed by its Schema::next to. Here
 ///   R = {"study", "kind", facts of the head, "set", a key for each table, "status", "stop",
 ///        "doubt", facts of the end}
-/// without "notes", "reduction", "study", "kind" and "doubt" if they are empty. A table is a list of objects,
-/// one row per line, or an object of lists. Numbers have the fewest digits that read back exactly; non-finite
-/// ones are null. Rows of the first table are written as they arrive, those of others are kept until the
-/// result ends.
+/// without "notes", "units", "reduction", "study", "kind" and "doubt" if they are empty. A table is a list of
+/// objects, one row per line, or an object of lists. Numbers have the fewest digits that read back exactly;
+/// non-finite ones are null. Rows of the first table are written as they arrive, those of others are kept
+/// until the result ends.
 class JsonWriter : public Sink {
  public:
   /// The stream outlives this; its state says whether writing succeeded.

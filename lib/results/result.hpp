@@ -29,6 +29,7 @@ struct Column {
   Type type = Type::number;
   std::string unit{};  // "N/m"; "" if it has none
   std::string help{};  // one line of Markdown
+  int spread = 0;      // of a list of pairs [re, im]: so many of them have columns of their own in CSV
 };
 
 /// "elements.damper.theta_0"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 
@@ -27,6 +28,23 @@ std::string text_in(const Object& object, const std::string& key) {
 namespace {
 
 constexpr const char* no_value = "-";
+constexpr int digits_of_pairs = 4;
+
+constexpr std::size_t most_pairs = 2;
+
+/// "0.9950 + 0.0998i, 0.9950 - 0.0998i" of the first pairs [re, im]; "" where the list is of others.
+std::string text_of_pairs(const Value::List& list) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most_pairs, list.size()); ++i) {
+    const auto* pair = std::get_if<Value::Numbers>(&list[i].get());
+    if (pair == nullptr || pair->size() != 2) return "";
+    const double imaginary = (*pair)[1];
+    text += (i > 0 ? ", " : "") + to_digits((*pair)[0], digits_of_pairs);
+    if (imaginary != 0)
+      text += (imaginary < 0 ? " - " : " + ") + to_digits(std::abs(imaginary), digits_of_pairs) + "i";
+  }
+  return text;
+}
 
 std::string text_of(const Value& value, const std::string& format, double error = 0, bool doubtful = false) {
   return std::visit(
@@ -41,6 +59,9 @@ std::string text_of(const Value& value, const std::string& format, double error 
           return is;
         } else if constexpr (std::is_same_v<Is, bool>) {
           return is ? "yes" : "no";
+        } else if constexpr (std::is_same_v<Is, Value::List>) {
+          const std::string pairs = text_of_pairs(is);
+          return pairs.empty() ? no_value : pairs;
         } else {
           return no_value;
         }

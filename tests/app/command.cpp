@@ -241,7 +241,8 @@ TEST_CASE("check reports what is likely wrong with a scene") {
   CHECK(Json::parse(ended.out)["studies"][0]["from"] == 100.0);
 }
 
-TEST_CASE("windows that a scene leaves out are proposed, told, in the resolved scene and in the results") {
+TEST_CASE(
+    "windows that a scene leaves out are proposed, reported, in the resolved scene and in the results") {
   const Workplace place;
   Json scene = Json::parse(place.read("scene.json"));
   for (const char* key : {"from", "to"}) scene["studies"][0].erase(key);

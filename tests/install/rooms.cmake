@@ -46,7 +46,7 @@ set(analyses/modes_and_time ${continuation} control results scene model hbm time
 set(studies/presentation control results scene laws model observables analyses/modes_and_time
     studies/presentation)
 set(studies control results scene scene/keys laws/memoryless laws/hysteresis laws/contact stability observables
-    analyses/responses analyses/curves analyses/modes_and_time studies/presentation studies)
+    analyses/branches analyses/responses analyses/curves analyses/modes_and_time studies/presentation studies)
 set(ensemble control results sampling scene scene/keys scene/format studies ensemble)
 set(output control results output)
 set(report results sampling scene report)

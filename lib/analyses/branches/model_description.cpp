@@ -19,8 +19,8 @@ namespace {
 using continuation::Vector;
 using Modes = std::vector<ModeAtRest>;
 
-constexpr int modes_told = 10;
-constexpr std::size_t masses_told = 10;
+constexpr int modes_reported = 10;
+constexpr std::size_t masses_reported = 10;
 constexpr double hertz = 2 * std::numbers::pi;
 constexpr double highest_usual = 1e5 * hertz, lowest_usual = 1e-3 * hertz;  // rad/s
 constexpr double no_spring = 1e-12;  // of the largest pivot: nothing holds the structure
@@ -66,21 +66,22 @@ std::string masses(const model::Model& model, const Eigen::MatrixXd& M) {
     if (i >= model.unnamed_from && i < model.unnamed_to) continue;
     const bool turns = model.dof_names[static_cast<std::size_t>(i)].ends_with(".slope");
     are_equal = are_equal && !turns && M(i, i) == M(0, 0);
-    if (++named <= masses_told)
+    if (++named <= masses_reported)
       texts.push_back(results::readable(M(i, i), turns ? "kg m^2" : "kg") + " at " +
                       coordinate_name(model, i));
   }
   if (are_equal && named > 1)
     return "mass of each of the " + std::to_string(named) +
            " coordinates: " + results::readable(M(0, 0), "kg");
-  if (named > masses_told) texts.push_back("those of " + std::to_string(named - masses_told) + " more");
+  if (named > masses_reported)
+    texts.push_back("those of " + std::to_string(named - masses_reported) + " more");
   if (named == 1) return "mass: " + texts.front();
   return texts.empty() ? "" : "mass of each coordinate, where the others are held: " + listed(texts);
 }
 
 std::string ratios(const Modes& modes) {
   std::vector<std::string> texts;
-  for (std::size_t i = 0; i < modes.size() && i < modes_told; ++i)
+  for (std::size_t i = 0; i < modes.size() && i < modes_reported; ++i)
     texts.push_back(results::to_digits(100 * modes[i].damping_ratio, 3) + " %");
   return texts.empty() ? "none" : listed(texts);
 }
@@ -112,13 +113,13 @@ std::string deflections(const model::Model& model, const Vector& p, bool has_con
     return each.kind == model::Excitation::Kind::force && each.harmonic == model.force_harmonic;
   });
   if (!any || model.sector) return "";
-  const auto told = [&](Contacts contacts) {
+  const auto reported = [&](Contacts contacts) {
     const auto value = deflection(model, p, contacts);
     return value ? results::readable(*value, "m") : std::string("none, since no spring holds the structure");
   };
   const std::string what = "static deflection of the response under the amplitude of the forces: ";
-  if (!has_contacts) return what + told(Contacts::free);
-  return what + told(Contacts::free) + " with all contacts free, " + told(Contacts::stuck) + " stuck";
+  if (!has_contacts) return what + reported(Contacts::free);
+  return what + reported(Contacts::free) + " with all contacts free, " + reported(Contacts::stuck) + " stuck";
 }
 
 std::string hertz_text(double omega) {
@@ -173,7 +174,7 @@ ModelDescription describe_model(const scene::Scene& scene, std::span<const Windo
   };
   if (model.dofs <= many_dofs) add(masses(model, model::mass_matrix(model, p)), all.facts);
   const Resonances resonant = resonances(model, p, many_dofs);
-  add(text_of(resonant, unit, modes_told), all.facts);
+  add(text_of(resonant, unit, modes_reported), all.facts);
   add(damping_ratios(resonant), all.facts);
   if (!resonant.free.empty() || !resonant.stuck.empty())
     add(deflections(model, p, !resonant.stuck.empty()), all.facts);

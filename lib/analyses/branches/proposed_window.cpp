@@ -19,7 +19,7 @@ using Complex = std::complex<double>;
 
 constexpr double third = 3;  // bandwidths from a resonance, where it has fallen to a third
 constexpr double least_margin = 0.05, most_margin = 0.5;
-constexpr int digits_of_end = 3, digits_told = 5;
+constexpr int digits_of_end = 3, digits_reported = 5;
 constexpr int most_balances = 60;        // between amplitude and stiffness
 constexpr double balanced = 1e-3;        // change of a frequency
 constexpr double most_stiffening = 100;  // of a frequency by springs that stiffen
@@ -153,7 +153,7 @@ std::optional<ProposedWindow> proposed_window(const scene::Scene& scene,
   ProposedWindow window{
       rounded((1 - margin) * first / unit, false), rounded((1 + margin) * stiff / unit, true), {}};
   const auto text = [&](double omega) {
-    return results::to_digits(omega / unit, digits_told) + ' ' +
+    return results::to_digits(omega / unit, digits_reported) + ' ' +
            std::string(scene::unit_name(scene.frequency_unit));
   };
   window.reason = text(window.lower * unit) + " to " + text(window.upper * unit) +

@@ -13,6 +13,9 @@
 namespace arcslip::studies {
 namespace {
 
+constexpr const char* multipliers_key = "multipliers";
+constexpr int multipliers_in_tables = 2;
+
 using observables::ResponseBranch;
 using observables::ResponseEvent;
 using observables::ResponsePoint;
@@ -110,16 +113,24 @@ std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked)
     all.push_back({.title = "stable",
                    .path = {"stable"},
                    .instead = {"limit", "kind", {limits.begin(), limits.end()}}});
+    all.push_back({.title = "largest multipliers", .path = {multipliers_key}});
   }
   return all;
+}
+
+/// Tables have the largest multipliers as columns, and files all that the study keeps.
+std::vector<results::Column> with_multipliers(std::vector<results::Column> columns) {
+  for (results::Column& column : columns)
+    if (column.path.back() == multipliers_key) column.spread = multipliers_in_tables;
+  return columns;
 }
 
 results::Schema schema(const scene::Scene& scene, const Asked& asked, const BranchTables& tables) {
   return {.format = "arcslip-branches-1",
           .list = "branches",
           .noun = "branch",
-          .tables = {{"points", tables.points.columns(), {"elements"}},
-                     {"events", tables.events.columns(), {"elements"}}},
+          .tables = {{"points", with_multipliers(tables.points.columns()), {"elements"}},
+                     {"events", with_multipliers(tables.events.columns()), {"elements"}}},
           .shown = shown(scene, asked),
           .shown_table = "events"};
 }

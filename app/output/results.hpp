@@ -1,7 +1,7 @@
 #pragma once
 // Output files of a run, and the checks before anything is computed that they can be written.
 
-#include "exit_code.hpp"
+#include "../exit_code.hpp"
 
 #include <arcslip/results/figure.hpp>
 #include <arcslip/results/result.hpp>

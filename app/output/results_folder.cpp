@@ -1,6 +1,6 @@
 #include "results_folder.hpp"
 
-#include "options.hpp"
+#include "../command_line/options.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
 

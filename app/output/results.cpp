@@ -1,8 +1,8 @@
 #include "results.hpp"
 
-#include "interrupt.hpp"
+#include "../command_line/options.hpp"
+#include "../interrupt.hpp"
 #include "message.hpp"
-#include "options.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
 #include <arcslip/output/figures.hpp>

@@ -1,13 +1,14 @@
 #pragma once
 // The command line options.
 
-#include "exit_code.hpp"
+#include "../exit_code.hpp"
 
 #include <arcslip/control/error.hpp>
 #include <arcslip/scene/keys/json_tree.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/study_type.hpp>
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,9 +39,9 @@ struct EnsembleOptions {
 };
 
 struct CommandOptions {
-  std::string verb;  // "run", "ensemble", "merge", "reduce", "check", or the verb of a kind of study
-  const scene::StudyType* type = nullptr;           // of the verb
-  std::string scene;                                // path
+  std::string verb;                        // "run", "check", "show" ..., or the verb of a kind of study
+  const scene::StudyType* type = nullptr;  // of the verb
+  std::string scene;                       // path
   std::vector<std::pair<std::string, double>> set;  // parameter and value
   std::optional<int> harmonics;
   std::optional<double> accuracy;
@@ -54,6 +55,9 @@ struct CommandOptions {
   std::map<std::string, double> new_numbers;     // by their options, those that are given
   std::map<std::string, std::string> new_texts;  // names, and files by what stands for them in the usage
   EnsembleOptions ensemble;
+  std::array<std::string, 2> files{};            // of results
+  std::string x, y;                              // columns to plot; "": the usual ones
+  double tolerance = 0;                          // of compare
   bool coefficients = false;
   bool quiet = false;
 };
@@ -67,6 +71,10 @@ class UsageError : public Error {
 struct Information {
   std::string text;
 };
+
+/// The commit, the compiler, and the libraries with their versions and licences; of BLAS the one that is
+/// loaded.
+std::string build_details();
 
 /// catalogue: the kinds of studies, each with its verb. Throws UsageError.
 std::variant<CommandOptions, Information> parse(int argc, const char* const* argv,

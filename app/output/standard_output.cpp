@@ -1,6 +1,6 @@
 #include "standard_output.hpp"
 
-#include "interrupt.hpp"
+#include "../interrupt.hpp"
 
 #include <arcslip/results/text.hpp>
 

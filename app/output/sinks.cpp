@@ -1,6 +1,6 @@
 #include "sinks.hpp"
 
-#include "interrupt.hpp"
+#include "../interrupt.hpp"
 
 #include <arcslip/results/text.hpp>
 

@@ -1,6 +1,6 @@
 #include "message.hpp"
 
-#include "interrupt.hpp"
+#include "../interrupt.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
 #include <arcslip/results/text.hpp>

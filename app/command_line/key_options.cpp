@@ -16,6 +16,13 @@ using scene::file::Node;
 
 constexpr const char* for_each = "for_each";
 
+/// "one|all"
+std::string words(const std::vector<std::string>& all) {
+  std::string text;
+  for (const std::string& word : all) text += (text.empty() ? "" : "|") + word;
+  return text;
+}
+
 std::string type_name(const Key& key) {
   switch (key.type) {
     case KeyType::number:
@@ -25,7 +32,7 @@ std::string type_name(const Key& key) {
     case KeyType::text:
       return "NAME";
     case KeyType::word:
-      return "WORD";
+      return words(key.words);
     case KeyType::value:
     case KeyType::frequency:
       return key.name == "from" ? "A" : key.name == "to" ? "B" : "F";
@@ -43,14 +50,6 @@ std::string type_name(const Key& key) {
   return key.name == for_each ? "NAME.FIELD=V,V..." : "JSON";
 }
 
-/// "a, b or c"
-std::string words(const std::vector<std::string>& all) {
-  std::string text;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    text.append(i == 0 ? "" : i + 1 == all.size() ? " or " : ", ").append(all[i]);
-  return text;
-}
-
 std::string help(const Key& key) {
   std::string text = key.help;
   if (key.type == KeyType::window) text += key.unit == "frequency" ? ", lower and upper" : ", from and to";
@@ -60,7 +59,6 @@ std::string help(const Key& key) {
   if (key.type == KeyType::parameters)
     text += ", each with its bounds, e.g. damper.normal_load=0.1:100; may be repeated";
   if (key.type == KeyType::followed) text += ", with its range, e.g. force.cosine=1:8";
-  if (key.type == KeyType::word) text += ": " + words(key.words);
   if (!key.otherwise.empty()) {
     const bool is_text = key.otherwise.front() == '"';
     text +=

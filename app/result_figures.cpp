@@ -1,0 +1,143 @@
+#include "output/results.hpp"
+#include "output/standard_output.hpp"
+#include "result_file.hpp"
+
+#include "output/message.hpp"
+
+#include <arcslip/results/figure.hpp>
+#include <arcslip/results/text.hpp>
+#include <arcslip/scene/scene.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace arcslip::app {
+namespace {
+
+using results::Column;
+using results::Value;
+
+/// The table with the points of the curves: the longest that has both columns.
+struct Axes {
+  std::size_t table, x, y;
+};
+
+std::optional<std::size_t> column_of(const results::Table& table, const std::string& name) {
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const std::string full = results::name(table.columns[c]);
+    if (full == name || full == "elements." + name) return c;
+  }
+  return {};
+}
+
+/// The parameter that a curve is over: the first column of a table, if it is none of a response.
+std::string usual_x(const results::Table& table) {
+  const std::string first = table.columns.empty() ? "" : results::name(table.columns.front());
+  return first == "omega" || first == "frequency" || first.empty() ? "frequency" : first;
+}
+
+std::optional<Axes> axes_of(const results::Schema& schema, const CommandOptions& options) {
+  for (std::size_t t = 0; t < schema.tables.size(); ++t) {
+    const results::Table& table = schema.tables[t];
+    if (table.key == "events") continue;
+    const auto x = column_of(table, options.x.empty() ? usual_x(table) : options.x);
+    const auto y = column_of(table, options.y.empty() ? "amplitude" : options.y);
+    if (x && y) return Axes{t, *x, *y};
+  }
+  return {};
+}
+
+double number_in(const results::Cells& cells, std::size_t row) {
+  const auto* values = std::get_if<std::vector<Value>>(&cells.of);
+  const auto* number = values != nullptr ? std::get_if<double>(&(*values)[row].get()) : nullptr;
+  return number != nullptr ? *number : std::numeric_limits<double>::quiet_NaN();
+}
+
+bool is_unstable(const results::Table& table, const results::Rows& rows, std::size_t row) {
+  const auto stable = column_of(table, "stable");
+  const auto* values = stable ? std::get_if<std::vector<Value>>(&rows.columns[*stable].of) : nullptr;
+  const auto* flag = values != nullptr ? std::get_if<bool>(&(*values)[row].get()) : nullptr;
+  return flag != nullptr && !*flag;
+}
+
+/// Parts of equal stability, which share the point where it changes.
+void add_parts(const results::Table& table, const results::Rows& rows, const Axes& axes,
+               results::FigureLine& line) {
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    const results::Record record{number_in(rows.columns[axes.x], i), number_in(rows.columns[axes.y], i)};
+    const bool unstable = is_unstable(table, rows, i);
+    if (line.parts.empty() || line.unstable.back() != unstable) {
+      std::vector<results::Record> part;
+      if (!line.parts.empty()) part.push_back(line.parts.back().back());
+      line.parts.push_back(std::move(part));
+      line.unstable.push_back(unstable);
+    }
+    line.parts.back().push_back(record);
+  }
+}
+
+results::FigureColumn axis_of(const Column& column) {
+  return {.label = results::with_unit(results::name(column), column.unit)};
+}
+
+std::optional<results::FigureData> figure_of(const results::Results& all, std::size_t schema,
+                                             const CommandOptions& options) {
+  const auto axes = axes_of(all.schemas[schema], options);
+  if (!axes) return {};
+  const results::Table& table = all.schemas[schema].tables[axes->table];
+  results::FigureData data{.name = "", .title = all.header.title};
+  data.columns = {axis_of(table.columns[axes->x]), axis_of(table.columns[axes->y])};
+  for (const Column& column : all.schemas[schema].set) data.parameters.push_back(results::name(column));
+  for (const results::Result& result : all.results) {
+    if (result.schema != schema) continue;
+    results::FigureLine line{.label = results::assignment(result.head.set),
+                             .heading = results::assignment(result.head.set)};
+    add_parts(table, result.tables[axes->table], *axes, line);
+    if (!line.parts.empty()) data.lines.push_back(std::move(line));
+  }
+  for (std::size_t c = 0; c < data.columns.size(); ++c) data.columns[c].range = results::full_range(data, c);
+  data.figures = {{.name = results::name(table.columns[axes->y]),
+                   .x = 0,
+                   .y = 1,
+                   .x_label = data.columns[0].label,
+                   .y_label = data.columns[1].label}};
+  return data;
+}
+
+}  // namespace
+
+ExitCode plot_results(const CommandOptions& options) {
+  const results::Results all = read_results(options.files[0]);
+  const std::filesystem::path file(options.files[0]);
+  const std::string folder = options.out.empty() ? file.parent_path().string() : options.out;
+  if (!options.out.empty()) std::filesystem::create_directories(folder);
+  Writing writing;
+  std::string places;
+  for (std::size_t schema = 0; schema < all.schemas.size(); ++schema) {
+    const auto data = figure_of(all, schema, options);
+    if (!data || data->lines.empty()) continue;
+    std::string name = file.stem().string() + "_plot";
+    if (all.schemas.size() > 1) name += "_" + all.schemas[schema].list;
+    const DrawnFigures drawn = write_figures({folder.empty() ? "." : folder, name}, {*data}, writing);
+    if (!drawn.problem.empty()) tell(drawn.problem);
+    for (const std::string& path : drawn.paths) places += results::visible(path) + "\n";
+  }
+  if (places.empty())
+    throw UsageError(
+        results::visible(options.files[0]) +
+        " has no table with these columns: give --x and --y, of those that arcslip show --columns "
+        "names");
+  StandardOutput screen;
+  screen.write_lines([&](std::ostream& out) { out << places; });
+  screen.finish();
+  return writing.code(ExitCode::done);
+}
+
+}  // namespace arcslip::app
