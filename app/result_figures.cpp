@@ -83,6 +83,12 @@ void add_parts(const results::Table& table, const results::Rows& rows, const Axe
   }
 }
 
+/// "3 N" of one parameter, whose name the key has.
+std::string label_of(const results::Object& set) {
+  const auto* value = set.size() == 1 ? std::get_if<double>(&set.front().value.get()) : nullptr;
+  return value != nullptr ? results::quantity(*value, set.front().unit) : results::assignment(set);
+}
+
 results::FigureColumn axis_of(const Column& column) {
   return {.label = results::with_unit(results::name(column), column.unit)};
 }
@@ -97,7 +103,7 @@ std::optional<results::FigureData> figure_of(const results::Results& all, std::s
   for (const Column& column : all.schemas[schema].set) data.parameters.push_back(results::name(column));
   for (const results::Result& result : all.results) {
     if (result.schema != schema) continue;
-    results::FigureLine line{.label = results::assignment(result.head.set),
+    results::FigureLine line{.label = label_of(result.head.set),
                              .heading = results::assignment(result.head.set)};
     add_parts(table, result.tables[axes->table], *axes, line);
     if (!line.parts.empty()) data.lines.push_back(std::move(line));

@@ -16,6 +16,10 @@ inline std::string arcslip_program() {
   return program_named("ARCSLIP_PROGRAM");
 }
 
+inline bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// A new folder to run in, with the paper's scene as scene.json. It goes away by itself.
 class Workplace {
  public:
