@@ -58,9 +58,8 @@ std::vector<BadInput> make() {
       line("an unknown verb", {"fry", "scene.json"},
            "unknown verb \"fry\", must be run, frf, trace, peaks, folds, bifurcations, time, point, modes, "
            "sweep, accuracy, "
-           "optimize, ensemble, merge, reduce, check "
-           "or "
-           "schema"),
+           "optimize, ensemble, merge, reduce, check, new, show, plot, compare, schema, manual or completions; did you mean "
+           "frf?"),
       bare("a structure that is not reduced", {"reduce", "bare.json"},
            "the structure is not reduced: give its matrices, its beam or its rod a \"highest_frequency\""),
       {"a reduced structure over the scene that it is of",

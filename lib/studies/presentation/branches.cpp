@@ -110,10 +110,10 @@ std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked)
   add_stick(scene, all, doubts);
   if (asked.stability) {  // `stable` of an event leaves out the multipliers that make it one
     const auto& limits = observables::event_kinds::limits_of_stability;
+    all.push_back({.title = "largest multipliers", .path = {multipliers_key}});
     all.push_back({.title = "stable",
                    .path = {"stable"},
                    .instead = {"limit", "kind", {limits.begin(), limits.end()}}});
-    all.push_back({.title = "largest multipliers", .path = {multipliers_key}});
   }
   return all;
 }
