@@ -27,10 +27,11 @@ constexpr double first_root_of_cantilever = 1.8751040687;      // of cos x cosh 
 constexpr double highest_over_first = 40;  // of a beam: its reduction, over the first mode
 constexpr double circle = 2 * std::numbers::pi;
 
-/// A number that follows from others, and how, for people.
+/// A number that follows from others, and how: for people, or as a scene has it.
 struct Derived {
   double value;
   std::string formula;
+  bool is_kept = false;  // the scene has the formula, which the number follows from then on
 };
 
 double rounded(double value) {
@@ -39,6 +40,11 @@ double rounded(double value) {
 
 Derived derived(double value, std::string formula) {
   return {rounded(value), std::move(formula)};
+}
+
+/// A number that is no parameter of its own: studies vary what it follows.
+Derived kept(double value, std::string formula) {
+  return {value, std::move(formula), true};
 }
 
 Node node(const char* text) {
@@ -50,9 +56,9 @@ Node node(const std::string& text) {
 Node node(double value) {
   return {value};
 }
-/// A scene has the number alone; its formula stands in a comment.
+/// What is not kept as a formula has it in a comment.
 Node node(const Derived& number) {
-  return node(number.value);
+  return number.is_kept ? node(number.formula) : node(number.value);
 }
 Node node(const std::vector<double>& values) {
   return scene::file::node(values);
@@ -70,7 +76,7 @@ Node to_ground(const std::string& place) {
 std::string formulas(const std::vector<std::pair<std::string, Derived>>& numbers) {
   std::string text;
   for (const auto& [field, number] : numbers)
-    text += (text.empty() ? "" : "; ") + field + " = " + number.formula;
+    if (!number.is_kept) text += (text.empty() ? "" : "; ") + field + " = " + number.formula;
   return text;
 }
 
@@ -105,10 +111,15 @@ std::vector<double> multiples(double of) {
 }
 
 Object head(const std::string& title, const std::string& comment) {
-  return {{"format", node("arcslip-scene-1")},
+  return {{"format", node("arcslip-scene-2")},
           {"title", node(title)},
           {"comment", node(comment)},
           {"frequency_unit", node("Hz")}};
+}
+
+/// The constant "ratio", for formulas.
+Member constant_ratio(double value, const std::string& help) {
+  return {"constants", {Object{{"ratio", {Object{{"value", node(value)}, {"help", node(help)}}}}}}};
 }
 
 /// One mass on a spring and a damper, which the frequency and the damping ratio give.
@@ -154,6 +165,7 @@ std::vector<Object> studies_of_load(const std::string& load, double balance) {
            {"comment", node("the load with the lowest resonance peak, with a certificate")}}};
 }
 
+constexpr const char* ratio_of_contact = "stiffness of the contact over that of the spring";
 constexpr const char* how_to_continue =
     "Written by arcslip new, in kg, m, s and N. Change any number; arcslip check describes the model, "
     "and "
@@ -161,20 +173,19 @@ constexpr const char* how_to_continue =
 
 Object damper(const Given& of) {
   const double mass = of("mass"), w = circle * of("frequency"), k = mass * w * w;
-  const Derived contact = derived(of("contact-stiffness-ratio") * k,
-                                  results::shortest(of("contact-stiffness-ratio")) + "*k"),
+  const Derived contact = kept(of("contact-stiffness-ratio") * k, "ratio*k"),
                 load = derived(of("force") / of("friction"), "force/friction");
   Object root = head("A mass with a friction damper", how_to_continue);
+  root.push_back(constant_ratio(of("contact-stiffness-ratio"), ratio_of_contact));
   root.push_back({"structure", {one_mass("mass", mass, of("frequency"), of("damping-ratio"))}});
-  root.push_back(
-      {"elements", list({{{"name", node("damper")},
-                          {"type", node("jenkins")},
-                          {"between", to_ground("mass")},
-                          {"stiffness", node(contact)},
-                          {"friction_coefficient", node(of("friction"))},
-                          {"normal_load", node(load)},
-                          {"comment", node("a spring in series with a slider; " +
-                                           formulas({{"stiffness", contact}, {"normal_load", load}}))}}})});
+  root.push_back({"elements", list({{{"name", node("damper")},
+                                     {"type", node("jenkins")},
+                                     {"between", to_ground("mass")},
+                                     {"stiffness", node(contact)},
+                                     {"friction_coefficient", node(of("friction"))},
+                                     {"normal_load", node(load)},
+                                     {"comment", node("a spring in series with a slider; " +
+                                                      formulas({{"normal_load", load}}))}}})});
   root.push_back({"excitation", list({force("mass", of("force"))})});
   root.push_back({"studies", list(studies_of_load("damper.normal_load", load.value))});
   return root;
@@ -273,11 +284,10 @@ Object duffing(const Given& of) {
 
 Object contact(const Given& of) {
   const double mass = of("mass"), w = circle * of("frequency"), k = mass * w * w;
-  const Derived tangential = derived(of("contact-stiffness-ratio") * k,
-                                     results::shortest(of("contact-stiffness-ratio")) + "*k"),
-                normal = derived(of("contact-stiffness-ratio") * k, "that of the tangential direction"),
+  const Derived tangential = kept(of("contact-stiffness-ratio") * k, "ratio*k"),
+                normal = kept(of("contact-stiffness-ratio") * k, "ratio*k"),
                 load = derived(of("force") / of("friction"), "force/friction"),
-                press = derived(0.2 * of("force"), "0.2*force");
+                press = kept(0.2 * of("force"), "0.2*force.cosine");
   Object structure = one_mass("slide", mass, of("frequency"), of("damping-ratio"));
   structure = {
       {"dofs", {Node::List{node("slide"), node("press")}}},
@@ -292,6 +302,7 @@ Object contact(const Given& of) {
        list({{{"name", node("c")}, {"at", node("slide")}, {"damping_ratio", node(of("damping-ratio"))}},
              {{"name", node("c2")}, {"at", node("press")}, {"damping_ratio", node(of("damping-ratio"))}}})}};
   Object root = head("A mass that slides and presses on a contact", how_to_continue);
+  root.push_back(constant_ratio(of("contact-stiffness-ratio"), ratio_of_contact));
   root.push_back({"structure", {structure}});
   root.push_back(
       {"elements", list({{{"name", node("contact")},
@@ -303,14 +314,10 @@ Object contact(const Given& of) {
                           {"friction_coefficient", node(of("friction"))},
                           {"normal_load", node(load)},
                           {"comment", node("the normal load varies with the motion and may vanish; " +
-                                           formulas({{"tangential_stiffness", tangential},
-                                                     {"normal_stiffness", normal},
-                                                     {"normal_load", load}}))}}})});
-  root.push_back({"excitation", list({force("slide", of("force")),
-                                      {{"name", node("pressing")},
-                                       {"at", node("press")},
-                                       {"sine", node(press)},
-                                       {"comment", node(formulas({{"sine", press}}))}}})});
+                                           formulas({{"normal_load", load}}))}}})});
+  root.push_back(
+      {"excitation", list({force("slide", of("force")),
+                           {{"name", node("pressing")}, {"at", node("press")}, {"sine", node(press)}}})});
   root.push_back({"response", {Object{{"at", node("slide")}}}});
   root.push_back({"studies", list(studies_of_load("contact.normal_load", load.value))});
   return root;
@@ -319,9 +326,11 @@ Object contact(const Given& of) {
 Object joint(const Given& of) {
   const double mass = of("mass"), w = circle * of("frequency"), k = mass * w * w;
   const double of_joint = of("joint-stiffness-ratio") * k;
-  const Derived stiffness = derived(of_joint, results::shortest(of("joint-stiffness-ratio")) + "*k");
+  const Derived stiffness = kept(of_joint, "ratio*k");
   const double slip = of("slip-force") / of_joint;  // deflection of the joint at macroslip, without microslip
   Object root = head("A mass on a joint with microslip", how_to_continue);
+  root.push_back(
+      constant_ratio(of("joint-stiffness-ratio"), "stiffness of the joint over that of the spring"));
   root.push_back({"structure", {one_mass("mass", mass, of("frequency"), of("damping-ratio"))}});
   root.push_back(
       {"elements",
@@ -333,9 +342,8 @@ Object joint(const Given& of) {
               {"slip_force", node(of("slip-force"))},
               {"exponent", node(-0.5)},
               {"beta", node(0.1)},
-              {"comment", node("Segalman's four-parameter Iwan model, from tests: " +
-                               formulas({{"stiffness", stiffness}}) +
-                               "; in microslip the dissipation grows as amplitude^(3 + exponent)")}}})});
+              {"comment", node("Segalman's four-parameter Iwan model, fitted to tests; in microslip the "
+                               "dissipation grows as amplitude^(3 + exponent)")}}})});
   root.push_back({"excitation", list({force("mass", of("force"))})});
   root.push_back(
       {"studies", list({{{"name", node("responses")},

@@ -171,7 +171,10 @@ ExitCode execute(const CommandOptions& options, const scene::Catalogue& catalogu
   if (const std::string done = observables::prepare(scene, by_signal()); !done.empty() && !options.quiet)
     tell(done);
   if (options.verb == "run") return run_scene(std::move(scene), options);
-  if (options.verb == ensemble_verb) return compute_ensemble(scene, options);
+  if (options.verb == ensemble_verb) {
+    propose_windows(scene, 0, scene.studies.size(), options);
+    return compute_ensemble(scene, options);
+  }
   if (options.verb == "reduce") return reduce(scene, options);
   if (options.type == nullptr) return check(scene, options);
   const std::size_t study = study_of_verb(scene, options);

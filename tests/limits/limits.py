@@ -9,6 +9,7 @@ not, and does not fail. Needs ctags of Debian's package universal-ctags, which f
 import collections
 import functools
 import pathlib
+import posixpath
 import re
 import subprocess
 import sys
@@ -128,7 +129,7 @@ def headers_with_one_user(sources, _):
     users = collections.defaultdict(set)
     for path in sources.code:
         for below_arcslip, near in INCLUDE.findall(sources.texts[path]):
-            places = [near and str(pathlib.PurePosixPath(path).parent / near), below_arcslip, "lib/" + below_arcslip]
+            places = [near and posixpath.normpath(pathlib.PurePosixPath(path).parent / near), below_arcslip, "lib/" + below_arcslip]
             header = next((place for place in places if place in sources.code), None)
             if header and header.removesuffix(".hpp") != path.removesuffix(".cpp"):
                 users[header].add(path)

@@ -1,6 +1,6 @@
 // What the command prints about itself: help, the version, the manual page and completions.
+#include "app/program.hpp"
 #include "catch.hpp"
-#include "program.hpp"
 
 #include <cstdio>
 #include <cstdlib>

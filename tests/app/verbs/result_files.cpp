@@ -1,6 +1,6 @@
 // show, plot and compare: files of results; --columns and --events.
+#include "app/program.hpp"
 #include "catch.hpp"
-#include "program.hpp"
 
 #include <nlohmann/json.hpp>
 
