@@ -202,7 +202,7 @@ std::vector<results::Shown> shown_in(const results::Schema& schema, const result
       const bool is_usual = name == "kind" || name == "frequency" || name == "amplitude" ||
                             name == "stable" || name == "damping_ratio" || name.ends_with(".stick_percent");
       if (table.key == schema.shown_table && is_usual)
-        shown.push_back({results::with_unit(name_in_tables(column), column.unit), column.path});
+        shown.push_back({.title = name_in_tables(column), .path = column.path, .unit = column.unit});
     }
   if (schema.shown_table.empty())
     for (const results::Member& fact : facts) {

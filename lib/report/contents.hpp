@@ -3,6 +3,7 @@
 
 #include <arcslip/results/figure.hpp>
 #include <arcslip/results/result.hpp>
+#include <arcslip/results/shown.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <cstddef>
@@ -20,7 +21,7 @@ struct Doubt {
 
 /// A row of the table of a study.
 struct TableRow {
-  std::vector<std::string> cells;
+  std::vector<results::ShownCell> cells;
   std::string kind{};             // of an event
   std::vector<double> numbers{};  // of an event, by which its mark in a figure is found
 };

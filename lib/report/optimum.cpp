@@ -50,7 +50,7 @@ std::string few(double value) {
 }
 
 std::string with_unit(double value, const std::string& unit) {
-  return results::to_digits(value, shown_digits) + (unit.empty() || unit == "-" ? "" : " " + unit);
+  return results::readable(value, unit, shown_digits);
 }
 
 std::string unit_of(const Object& object, const std::string& key) {

@@ -102,11 +102,12 @@ void Report::end(const results::End& end) {
   std::vector<TableRow> rows = std::exchange(contents_->rows, {});
   if (study.schema.shown_table.empty())
     rows = {{results::shown_cells(study.schema.shown, end.facts, head.facts)}};
-  if (rows.empty()) rows.push_back({std::vector<std::string>(study.schema.shown.size(), "-")});
+  if (rows.empty()) rows.push_back({std::vector<results::ShownCell>(study.schema.shown.size(), {"-"})});
   for (TableRow& row : rows) {
-    std::vector<std::string> cells = results::set_cells(study.schema, head.set);
+    std::vector<results::ShownCell> cells;
+    for (std::string& cell : results::set_cells(study.schema, head.set)) cells.push_back({std::move(cell)});
     std::move(row.cells.begin(), row.cells.end(), std::back_inserter(cells));
-    cells.emplace_back(results::name(end.status));
+    cells.push_back({results::name(end.status)});
     row.cells = std::move(cells);
     study.rows.push_back(std::move(row));
   }

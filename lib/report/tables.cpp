@@ -77,17 +77,15 @@ void write_parameters(Html& html, const Contents& contents) {
 
 void write_results(Html& html, const StudyContents& study, const std::string& row_id) {
   if (study.rows.empty()) return;
-  std::vector<std::string> titles;
-  for (const results::Column& column : study.schema.set)
-    titles.push_back(results::with_unit(name(column), column.unit));
-  for (const results::Shown& each : study.schema.shown) titles.push_back(each.title);
-  titles.push_back(study.schema.noun);
+  std::vector<std::vector<results::ShownCell>> cells;
+  for (const TableRow& row : study.rows) cells.push_back(row.cells);
+  const std::vector<std::vector<std::string>> texts = results::text_rows(study.schema, cells);
   html.open("div", {{"class", "wide"}}).open("table", {{"class", "sortable results"}});
-  write_titles(html, titles);
+  write_titles(html, texts.front());
   html.open("tbody");
   for (std::size_t i = 0; i < study.rows.size(); ++i) {
     html.open("tr", {{"id", row_id + "-" + std::to_string(i)}});
-    for (const std::string& cell : study.rows[i].cells) {
+    for (const std::string& cell : texts[i + 1]) {
       const bool is_kind = !study.rows[i].kind.empty() && cell == study.rows[i].kind;
       html.element("td", is_kind ? observables::event_kinds::words_of(cell) : cell);
     }

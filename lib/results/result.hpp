@@ -61,6 +61,7 @@ struct Shown {
   // then three digits are shown at most, also without an estimate.
   std::vector<std::string> doubtful{};
   Instead instead{};
+  std::string unit{};  // the column has one prefix that suits its numbers, in the title as well: "A_max (mm)"
 };
 
 /// The structure of all results of a study.

@@ -90,9 +90,9 @@ bool is_doubtful(const Object& object, const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> shown_cells(const std::vector<Shown>& shown, const Object& object,
-                                     const Object& facts) {
-  std::vector<std::string> row;
+std::vector<ShownCell> shown_cells(const std::vector<Shown>& shown, const Object& object,
+                                   const Object& facts) {
+  std::vector<ShownCell> row;
   for (const Shown& each : shown) {
     const Value* value = find(object, each.path);
     if (!value) value = find(facts, each.path);
@@ -101,9 +101,15 @@ std::vector<std::string> shown_cells(const std::vector<Shown>& shown, const Obje
     const double size = error && std::isfinite(*error) ? *error * each.error_unit : 0;
     const bool doubtful = std::any_of(each.doubtful.begin(), each.doubtful.end(),
                                       [&](const std::string& name) { return is_doubtful(object, name); });
-    row.push_back(value ? text_of(*value, each.format, size, doubtful) : no_value);
-    if (row.back() == no_value && is_set(object, each.otherwise)) row.back() = each.otherwise;
-    if (stands_instead(object, each)) row.back() = each.instead.text;
+    ShownCell& cell = row.emplace_back();
+    cell.text = value ? text_of(*value, each.format, size, doubtful) : no_value;
+    const auto* number = value && !each.unit.empty() ? std::get_if<double>(&value->get()) : nullptr;
+    if (number && std::isfinite(*number)) {
+      cell.value = *number;
+      cell.error = doubtful ? doubtful_error(*number, size) : size;
+    }
+    if (cell.text == no_value && is_set(object, each.otherwise)) cell = {each.otherwise};
+    if (stands_instead(object, each)) cell = {each.instead.text};
   }
   return row;
 }
@@ -118,12 +124,26 @@ std::vector<std::string> set_cells(const Schema& schema, const Object& set) {
   return row;
 }
 
-std::vector<std::string> shown_titles(const Schema& schema) {
-  std::vector<std::string> titles;
+std::vector<std::vector<std::string>> text_rows(const Schema& schema,
+                                                const std::vector<std::vector<ShownCell>>& rows) {
+  std::vector<std::vector<std::string>> texts(rows.size() + 1);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const ShownCell& cell : rows[i]) texts[i + 1].push_back(cell.text);
+  std::vector<std::string>& titles = texts.front();
   for (const Column& column : schema.set) titles.push_back(with_unit(name(column), column.unit));
-  for (const Shown& each : schema.shown) titles.push_back(each.title);
+  for (const Shown& each : schema.shown) {
+    const std::size_t c = titles.size();
+    double largest = 0;
+    for (const auto& row : rows)
+      if (c < row.size() && std::isfinite(row[c].value)) largest = std::max(largest, std::abs(row[c].value));
+    const PrefixedUnit in = prefixed(each.unit, largest);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (c < rows[i].size() && std::isfinite(rows[i][c].value))
+        texts[i + 1][c] = with_error(in.factor * rows[i][c].value, in.factor * rows[i][c].error, "%.8g");
+    titles.push_back(each.unit.empty() ? each.title : with_unit(each.title, in.unit));
+  }
   titles.push_back(schema.noun);
-  return titles;
+  return texts;
 }
 
 }  // namespace arcslip::results

@@ -3,6 +3,7 @@
 
 #include <arcslip/results/result.hpp>
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,15 +16,22 @@ const Value* find(const Object& object, std::span<const std::string> path);
 /// The text of that key; "" where there is none.
 std::string text_in(const Object& object, const std::string& key);
 
-/// Returns a text for each column that is shown, of an object or else of the facts of its result; "-" where
+/// A text, or the number of a column with a unit, whose prefix depends on the other rows.
+struct ShownCell {
+  std::string text{};
+  double value = std::numeric_limits<double>::quiet_NaN(), error = 0;  // NaN: the text stands
+};
+
+/// Returns a cell for each column that is shown, of an object or else of the facts of its result; "-" where
 /// there is no value. Numbers have the digits that their estimated errors leave.
-std::vector<std::string> shown_cells(const std::vector<Shown>& shown, const Object& object,
-                                     const Object& facts);
+std::vector<ShownCell> shown_cells(const std::vector<Shown>& shown, const Object& object,
+                                   const Object& facts);
 
 /// Returns a text for each parameter of Schema::set.
 std::vector<std::string> set_cells(const Schema& schema, const Object& set);
 
-/// Returns the titles of a row: of set_cells(), of shown_cells(), and of the status.
-std::vector<std::string> shown_titles(const Schema& schema);
+/// Returns the titles and the rows of a table: of set_cells(), of shown_cells(), and of the status.
+std::vector<std::vector<std::string>> text_rows(const Schema& schema,
+                                                const std::vector<std::vector<ShownCell>>& rows);
 
 }  // namespace arcslip::results

@@ -70,12 +70,12 @@ void TableWriter::end(const End& end) {
     return;
   }
   if (schema.shown_table.empty()) of_it_ = {shown_cells(schema.shown, end.facts, head_.facts)};
-  if (of_it_.empty()) of_it_.emplace_back(schema.shown.size(), "-");
-  for (Row& row : of_it_) {
-    Row& line = lines_.emplace_back();
-    line = set_cells(schema, head_.set);
+  if (of_it_.empty()) of_it_.emplace_back(schema.shown.size(), ShownCell{"-"});
+  for (const std::vector<ShownCell>& row : of_it_) {
+    std::vector<ShownCell>& line = lines_.emplace_back();
+    for (std::string& cell : set_cells(schema, head_.set)) line.push_back({std::move(cell)});
     line.insert(line.end(), row.begin(), row.end());
-    line.emplace_back(name(end.status));
+    line.push_back({name(end.status)});
   }
 }
 
@@ -88,9 +88,7 @@ void TableWriter::separate() {
 void TableWriter::finish() {
   if (lines_.empty()) return;
   separate();
-  const Schema& schema = schemas_[schema_];
-  lines_.insert(lines_.begin(), shown_titles(schema));
-  write_aligned(out_, std::exchange(lines_, {}));
+  write_aligned(out_, text_rows(schemas_[schema_], std::exchange(lines_, {})));
 }
 
 void write_table(std::ostream& out, const Results& results) {

@@ -2,6 +2,7 @@
 // Text output of results: aligned columns, or the text of a result.
 
 #include <arcslip/results/result.hpp>
+#include <arcslip/results/shown.hpp>
 
 #include <iosfwd>
 #include <map>
@@ -26,7 +27,7 @@ class TableWriter : public Sink {
  private:
   void separate();
 
-  using Cells = std::vector<std::string>;
+  using Cells = std::vector<ShownCell>;
 
   std::ostream& out_;
   std::vector<Schema> schemas_;

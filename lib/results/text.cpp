@@ -150,22 +150,25 @@ std::string quantity(double value, std::string_view unit) {
   return text;
 }
 
-std::string readable(double value, std::string_view unit, int digits) {
+PrefixedUnit prefixed(std::string_view unit, double size) {
   constexpr std::array<std::string_view, 7> prefixes = {"n", "\u00b5", "m", "", "k", "M", "G"};
-  constexpr int without = 3;
+  constexpr std::size_t without = 3;
   constexpr std::array<std::string_view, 5> scaled = {"m", "N", "J", "W", "Pa"};
   const bool takes_prefix = std::any_of(scaled.begin(), scaled.end(), [&](std::string_view of) {
     return unit == of || (unit.starts_with(of) && (unit[of.size()] == ' ' || unit[of.size()] == '/'));
   });
-  int prefix = without;
-  double shown = value;
-  if (takes_prefix && std::isfinite(value) && value != 0) {
-    for (; std::abs(shown) < 0.1 && prefix > 0; --prefix) shown *= 1e3;
-    for (; std::abs(shown) >= 100 && prefix + 1 < static_cast<int>(prefixes.size()); ++prefix) shown /= 1e3;
-  }
-  const std::string text = to_digits(shown, digits);
-  if (unit.empty() || unit == "-") return text;
-  return text + " " + std::string(prefixes[static_cast<std::size_t>(prefix)]) + std::string(unit);
+  if (!takes_prefix || !std::isfinite(size) || size == 0) return {std::string(unit), 1};
+  std::size_t prefix = without;
+  double factor = 1;
+  for (; std::abs(size) * factor < 0.1 && prefix > 0; --prefix) factor *= 1e3;
+  for (; std::abs(size) * factor >= 100 && prefix + 1 < prefixes.size(); ++prefix) factor /= 1e3;
+  return {std::string(prefixes[prefix]) + std::string(unit), factor};
+}
+
+std::string readable(double value, std::string_view unit, int digits) {
+  const PrefixedUnit in = prefixed(unit, value);
+  const std::string text = to_digits(value * in.factor, digits);
+  return in.unit.empty() || in.unit == "-" ? text : text + " " + in.unit;
 }
 
 }  // namespace arcslip::results

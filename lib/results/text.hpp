@@ -38,8 +38,17 @@ std::string with_unit(std::string_view quantity, std::string_view unit);
 /// "3 N", to ten digits; without a unit for a pure number ("" or "-").
 std::string quantity(double value, std::string_view unit);
 
-/// The same to so many digits, with a prefix where the number is below 0.1 or at least 100 of the unit: "0.69
-/// mm", "3.2 MN/m". m, N, J, W, Pa and units that begin with these have prefixes, others exponents.
+/// A unit with a prefix, and the numbers in it over those in the unit itself.
+struct PrefixedUnit {
+  std::string unit;  // "mm"
+  double factor;     // 1000
+};
+
+/// The prefix with which a number of this size lies from 0.1 to 100. m, N, J, W, Pa and units that begin with
+/// these have prefixes, others have none.
+PrefixedUnit prefixed(std::string_view unit, double size);
+
+/// quantity() to so many digits, in prefixed(): "0.69 mm", "3.2 MN/m".
 std::string readable(double value, std::string_view unit, int digits = 4);
 
 /// Escapes every character that is unsafe for a terminal or invalid: control characters (C0, DEL, C1),

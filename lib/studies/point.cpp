@@ -123,17 +123,19 @@ Described<PointResponse> described_point(const scene::Scene& scene, const PointS
   const auto table = std::make_shared<const results::TableOf<PointInstant>>(point_history(scene));
   std::vector<results::Shown> shown{
       {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"},
-      {.title = "A_max (m)",
+      {.title = "A_max",
        .path = {"amplitude"},
        .format = "%.8e",
        .error = {"truncation_estimate"},
-       .doubtful = {"truncation_flagged"}},
+       .doubtful = {"truncation_flagged"},
+       .unit = "m"},
       {"phase (rad)", {"phase"}, "%.6f"}};
   add_stick(scene, shown);
   if (settings.stability) shown.push_back({"stable", {"stable"}});
-  shown.insert(shown.end(), {{"E_friction (J)", {"energy_friction"}, "%.6e"},
-                             {"E_viscous (J)", {"energy_viscous"}, "%.6e"},
-                             {"truncation (m)", {"truncation_estimate"}, "%.1e"}});
+  shown.insert(shown.end(),
+               {{.title = "E_friction", .path = {"energy_friction"}, .format = "%.6e", .unit = "J"},
+                {.title = "E_viscous", .path = {"energy_viscous"}, .format = "%.6e", .unit = "J"},
+                {.title = "truncation", .path = {"truncation_estimate"}, .format = "%.1e", .unit = "m"}});
   results::Schema schema{.format = "arcslip-responses-1",
                          .list = "responses",
                          .noun = "response",

@@ -197,8 +197,8 @@ Described<FrequencySweep> described_sweep(const scene::Scene& scene, const Sweep
                 {"event", {"kind"}},
                 {results::with_unit("from", unit), {"frequency"}, "%.8f"},
                 {results::with_unit("to", unit), {"frequency_after"}, "%.8f"},
-                {"A_max before (m)", {"amplitude"}, "%.6e"},
-                {"A_max after (m)", {"amplitude_after"}, "%.6e"}},
+                {.title = "A_max before", .path = {"amplitude"}, .format = "%.6e", .unit = "m"},
+                {.title = "A_max after", .path = {"amplitude_after"}, .format = "%.6e", .unit = "m"}},
       .shown_table = "events"};
   return {std::move(schema), [&scene, tables, points = options.points](const FrequencySweep& sweep) {
             results::Result result{.schema = 0,

@@ -23,6 +23,12 @@ std::string number(double value, const char* format = "%.8g") {
   return number(value, 0, format);
 }
 
+// An amplitude in m, mm or so.
+std::string metres(double value, double error = 0) {
+  const results::PrefixedUnit in = results::prefixed("m", value);
+  return number(in.factor * value, in.factor * error, "%.8g") + " " + in.unit;
+}
+
 std::string with_unit(const scene::Scene& scene, const std::string& parameter, double value,
                       double error = 0) {
   const std::string unit = studies::parameter_unit(scene, parameter);
@@ -35,7 +41,7 @@ double error_of(double value, double estimate, const observables::ResponsePoint&
 
 // Of an amplitude at a point, without the digits that the neglected harmonics move.
 std::string at_point(double amplitude, const observables::ResponsePoint& point) {
-  return number(amplitude, error_of(amplitude, point.truncation_estimate, point), "%.8e") + " m";
+  return metres(amplitude, error_of(amplitude, point.truncation_estimate, point));
 }
 
 // Of a parameter at the optimum.
@@ -180,8 +186,8 @@ void write_certificate(std::ostream& out, const scene::Scene& scene, const Optim
   out << "  " << active << (active == 1 ? " active peak" : " active peaks") << (mean ? " of the cases" : "")
       << ", residual gradient " << number(certificate.stationarity, "%.1e") << '\n';
   for (const auto& other : certificate.others) {
-    out << "  another response, found by " << other.found_by << ": " << number(other.amplitude, "%.8e")
-        << " m at " << number(studies::in_scene_unit(scene, other.omega)) << ' '
+    out << "  another response, found by " << other.found_by << ": " << metres(other.amplitude) << " at "
+        << number(studies::in_scene_unit(scene, other.omega)) << ' '
         << scene::unit_name(scene.frequency_unit);
     if (result.has_cases())
       out << " with " << case_text(scene, result.problem, result.optimum.cases[other.in_case]);
@@ -195,7 +201,7 @@ void write_starts(std::ostream& out, const Optimum& found) {
   out << "  " << starts.to_optimum << " of " << starts.count << " starts led to it, within "
       << number(same_minimum) << " of the amplitude";
   if (starts.to_optimum + starts.to_none < starts.count)
-    out << ", the others to minima of up to " << number(starts.highest, "%.4e") << " m";
+    out << ", the others to minima of up to " << metres(starts.highest);
   if (starts.to_none > 0) out << "; " << starts.to_none << " ended at no minimum";
   out << '\n';
 }
@@ -217,7 +223,7 @@ std::string text_of(const scene::Scene& scene, const OptimumResult& result) {
   if (result.has_cases()) {
     out << "  " << name(result.problem.criterion) << " of " << found.cases.size()
         << (found.cases.size() == 1 ? " case = " : " cases = ")
-        << number(found.amplitude, estimate_of(found.cases), "%.8e") << " m\n";
+        << metres(found.amplitude, estimate_of(found.cases)) << '\n';
     print_cases(out, scene, result);
   } else {
     out << "  A_max = " << at_point(found.amplitude, found.point) << " at "

@@ -19,7 +19,7 @@ TEST_CASE("peaks finds the load of the least peak, and prints it as a table or a
   CHECK(table.exit_code == 0);
   CHECK(table.err.empty());
   CHECK(table.out.find("damper.normal_load (N)    event  frequency (Hz) ") == 0);
-  CHECK(table.out.find(" A_max (m)  stick (%)    branch\n") != std::string::npos);
+  CHECK(table.out.find(" A_max (mm)  stick (%)    branch\n") != std::string::npos);
   CHECK(table.out.find(" minimum ") != std::string::npos);
   CHECK(place.read("peaks.csv").find("study,branch,damper.normal_load (N),omega (rad/s),frequency (Hz)") ==
         0);

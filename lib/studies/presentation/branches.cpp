@@ -100,12 +100,13 @@ std::vector<results::Shown> shown(const scene::Scene& scene, const Asked& asked)
                  .error = of_frequency ? std::vector{location} : std::vector<std::string>(),
                  .error_unit = in_scene_unit(scene, 1),
                  .doubtful = of_frequency ? doubts : std::vector<std::string>()});
-  all.push_back({.title = asked.mode ? "A (m)" : "A_max (m)",
+  all.push_back({.title = asked.mode ? "A" : "A_max",
                  .path = {"amplitude"},
                  .format = "%.8e",
                  .otherwise = "unbounded",
                  .error = {"truncation_estimate"},
-                 .doubtful = doubts});
+                 .doubtful = doubts,
+                 .unit = "m"});
   if (asked.mode) all.push_back({"damping ratio", {"damping_ratio"}, "%.8f"});
   add_stick(scene, all, doubts);
   if (asked.stability) {  // `stable` of an event leaves out the multipliers that make it one

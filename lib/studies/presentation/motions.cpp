@@ -148,12 +148,13 @@ Described<Motion> motions(const scene::Scene& scene, const RunOptions& options) 
   std::vector<results::Shown> shown{
       {"method", {"method"}},
       {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"},
-      {"A_max (m)", {"amplitude"}, "%.8e"}};
+      {.title = "A_max", .path = {"amplitude"}, .format = "%.8e", .unit = "m"}};
   add_stick(scene, shown);
-  shown.insert(shown.end(), {{"E_friction (J)", {"energy_friction"}, "%.6e"},
-                             {"E_viscous (J)", {"energy_viscous"}, "%.6e"},
-                             {"multiplier", {"largest_multiplier"}, "%.6f"},
-                             {"periods", {"periods"}}});
+  shown.insert(shown.end(),
+               {{.title = "E_friction", .path = {"energy_friction"}, .format = "%.6e", .unit = "J"},
+                {.title = "E_viscous", .path = {"energy_viscous"}, .format = "%.6e", .unit = "J"},
+                {"multiplier", {"largest_multiplier"}, "%.6f"},
+                {"periods", {"periods"}}});
   results::Schema schema{.format = "arcslip-time-1",
                          .list = "motions",
                          .noun = "motion",

@@ -38,10 +38,10 @@ TEST_CASE("a file of results is shown as tables, with its units, ends and doubts
   const Json peak = Json::parse(place.read("a.json"))["branches"][0]["events"][0];
   CHECK(has(shown.out, "Blade to ground with a friction damper"));
   CHECK(has(shown.out, "frequency (Hz)"));
-  CHECK(has(shown.out, "amplitude (m)"));
-  CHECK(has(shown.out, std::to_string(peak["amplitude"].get<double>()).substr(0, 7)));
+  CHECK(has(shown.out, "amplitude (mm)"));
+  CHECK(has(shown.out, std::to_string(1000 * peak["amplitude"].get<double>()).substr(0, 7)));
   const Ended chosen = run(place, {"show", "a.json", "--columns", "amplitude,damper.stick_percent"});
-  CHECK(has(chosen.out, "amplitude (m)  damper.stick_percent (%)    branch"));
+  CHECK(has(chosen.out, "amplitude (mm)  damper.stick_percent (%)    branch"));
   CHECK_FALSE(has(chosen.out, "frequency"));
   Json json = Json::parse(place.read("a.json"));
   json["branches"][0]["status"] = "failed";
@@ -141,7 +141,7 @@ TEST_CASE("columns and kinds of events are chosen for tables") {
   };
   const std::string chosen = with({"--columns", "frequency,amplitude"}).out;
   CHECK(has(chosen, "frequency (Hz)"));
-  CHECK(has(chosen, "A_max (m)"));
+  CHECK(has(chosen, "A_max (mm)"));
   CHECK_FALSE(has(chosen, "event"));
   const Ended csv = with({"--columns", "frequency,damper.stick_percent", "--csv", "-"});
   CHECK(csv.out.starts_with("study,branch,frequency (Hz),damper.stick_percent (%)\r\n"));

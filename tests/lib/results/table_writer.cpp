@@ -85,6 +85,23 @@ TEST_CASE("a number is doubtful where an estimate is not known") {
   CHECK(printed(results).find("     2.5  3.14159265 ") != std::string::npos);
 }
 
+TEST_CASE("a column with a unit has one prefix, by the largest of its numbers, and the digits that errors leave") {
+  Results results = shown();
+  results.schemas[0].shown[0] = {
+      .title = "x", .path = {"x"}, .format = "%.8e", .error = {"error"}, .unit = "m"};
+  std::get<std::vector<double>>(results.results[0].tables[0].columns[0].of) = {6.943436e-4, 8.3423774e-3};
+  results.schemas[0].tables[0].columns.push_back({{"error"}, Type::number});
+  auto& columns = results.results[0].tables[0].columns;
+  columns.push_back({std::vector<double>{0, 4e-8}});
+  CHECK(printed(results) ==
+        "load (N)     x (mm)     word  load     thing\n"
+        "     2.5  0.6943436  =a, \"b\"     3  complete\n"
+        "     2.5     8.3424              -  complete\n");
+  std::get<std::vector<double>>(columns[0].of) = {std::nan(""), 42};
+  CHECK(printed(results).starts_with("load (N)  x (m) "));
+  CHECK(printed(results).find("     2.5      -  =a") != std::string::npos);
+}
+
 TEST_CASE("a result without rows has one that says so, and results of one kind share a table") {
   Results results = shown();
   results.results[1] = results.results[0];

@@ -64,3 +64,25 @@ TEST_CASE("digits below twice an estimated error are not printed") {
   CHECK(with_error(-9.9, doubtful_error(-9.9, 1e-9), "%.8f") == "-9.90");
   CHECK(with_error(20.0292721, doubtful_error(20.0292721, 0.3), "%.8f") == "20");
 }
+
+TEST_CASE("quantities for people have a prefix with which they lie from 0.1 to 100") {
+  using arcslip::results::readable;
+  CHECK(readable(6.9434e-4, "m") == "0.6943 mm");
+  CHECK(readable(0.0834, "m") == "83.4 mm");
+  CHECK(readable(0.1, "m") == "0.1 m");
+  CHECK(readable(99.9, "N") == "99.9 N");
+  CHECK(readable(100, "N") == "0.1 kN");
+  CHECK(readable(3.2e6, "N/m") == "3.2 MN/m");
+  CHECK(readable(-5e-5, "m") == "-50 \u00b5m");
+  CHECK(readable(1e-12, "J") == "0.001 nJ");
+  CHECK(readable(1e15, "Pa") == "1e+06 GPa");
+  CHECK(readable(0, "m") == "0 m");
+  CHECK(readable(HUGE_VAL, "m") == "inf m");
+  // No prefix would be of the power or of another unit.
+  CHECK(readable(1e-4, "m^2") == "0.0001 m^2");
+  CHECK(readable(1e4, "N s/m") == "10 kN s/m");
+  CHECK(readable(48391.23, "Hz", 6) == "48391.2 Hz");
+  CHECK(readable(0.002, "kg") == "0.002 kg");
+  CHECK(readable(0.002, "-") == "0.002");
+  CHECK(readable(0.002, "") == "0.002");
+}
