@@ -56,6 +56,10 @@ void write_parameters(Html& html, const Contents& contents) {
   html.open("details", {{"open", ""}, {"class", "parameters"}}).element("summary", "Parameters");
   html.open("div", {{"class", "wide"}}).open("table", {{"class", "sortable"}});
   std::vector<std::string> titles{"parameter", "value", "unit", "what it is"};
+  const bool any_formula = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return scene::parameter_formula(scene, name) != nullptr;
+  });
+  if (any_formula) titles.emplace_back("given by");
   if (!over.empty()) titles.emplace_back("varied");
   write_titles(html, titles);
   html.open("tbody");
@@ -64,7 +68,11 @@ void write_parameters(Html& html, const Contents& contents) {
     const auto values = over.find(names[i]);
     html.open("tr").element("th", names[i], {{"scope", "row"}});
     html.element("td", plain_number(scene::value(scene, names[i])), {{"class", "number"}});
-    html.element("td", field.unit).element("td", field.help);
+    html.element("td", field.unit.empty() ? "-" : field.unit).element("td", field.help);
+    if (any_formula) {
+      const scene::NumberText* formula = scene::parameter_formula(scene, names[i]);
+      html.element("td", formula != nullptr ? formula->text : "");
+    }
     if (!over.empty()) html.element("td", values == over.end() ? "" : values->second);
     html.close();
   }

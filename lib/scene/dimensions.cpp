@@ -88,6 +88,14 @@ class Dimensions {
       case Operation::max:
       case Operation::hypot:
         return common(node.a, node.b, "which adds or compares ");
+      default:
+        return choice(node);
+    }
+  }
+
+  // Of what decides, and of functions.
+  Dimension choice(const formula::Node& node) {
+    switch (node.operation) {
       case Operation::less:
       case Operation::less_or_equal:
       case Operation::equal:

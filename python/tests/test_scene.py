@@ -67,7 +67,22 @@ def test_unknown_parameter_names_the_nearest(scene: arcslip.Scene) -> None:
         scene.replace({"damper.normal_load": -5})
 
 
-@pytest.mark.parametrize("wrong", ["much", None, [1, 2], 1j])
+def test_numbers_follow_formulas_and_have_units(scene: arcslip.Scene) -> None:
+    followed = scene.replace({"damper.stiffness": "0.25*k", "damper.normal_load": "3 kN"})
+    stiffness = followed.parameters["damper.stiffness"]
+    assert stiffness == 0.25 * followed.parameters["k.value"]
+    assert (stiffness.formula, followed.parameters["k.value"].formula) == ("0.25*k", None)
+    assert followed.parameters["damper.normal_load"] == 3000
+    assert followed.replace({"k": 8}).parameters["damper.stiffness"] == 2
+    assert arcslip.Scene(followed.to_dict()) == followed
+    with pytest.raises(arcslip.ParameterError, match="given by the formula"):
+        followed.replace({"damper.stiffness": 3})
+    for wrong in ["much", "k + ", "2*m", "3 kg", "2*damper.stiffness"]:
+        with pytest.raises(arcslip.ParameterError):
+            scene.replace({"damper.stiffness": wrong})
+
+
+@pytest.mark.parametrize("wrong", [None, [1, 2], 1j])
 def test_value_of_a_wrong_type_is_refused(scene: arcslip.Scene, wrong: object) -> None:
     with pytest.raises((TypeError, ValueError)):
         scene.replace({"damper.normal_load": wrong})  # type: ignore[dict-item]

@@ -171,6 +171,31 @@ Location in_place(Location place, const Node& value) {
   return place;
 }
 
+// All numbers are known from here on.
+void resolve_numbers(Scene& scene, const Names& names, bool parts_sound, Faults& faults) {
+  const std::size_t before = faults.count();
+  resolve_formulas(scene, names, &faults);
+  if (parts_sound && faults.count() == before) check_structure(scene, faults);
+}
+
+// Springs and dampers that are given by natural frequencies and damping ratios have the values of these.
+void read_springs_and_dampers(const Keys& structure, const Dofs& dofs, const FileSource& source, bool sound,
+                              Scene& scene, Names& names, Faults& faults) {
+  const auto rows = static_cast<int>(scene.matrices ? scene.matrices->named() : 0);
+  const Location springs = structure.find("springs"), dampers = structure.find("dampers");
+  const std::size_t before = faults.count();
+  const auto is_sound = [&] { return sound && faults.count() == before; };
+  resolve_formulas(scene, names, nullptr);
+  const Node with_values = with_stiffnesses(springs, {dofs, rows, scene.masses, scene.springs, is_sound()},
+                                            scene.frequency_unit, faults);
+  scene.springs = read_parts(in_place(springs, with_values), &spring_type(), {}, dofs, source, names, faults);
+  resolve_formulas(scene, names, nullptr);
+  const Node with_damping =
+      with_dampings(dampers, {dofs, rows, scene.masses, scene.springs, is_sound()}, faults);
+  scene.dampers =
+      read_parts(in_place(dampers, with_damping), &damper_type(), {}, dofs, source, names, faults);
+}
+
 Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue, const FileSource& source,
                  Faults& faults) {
   Scene scene;
@@ -190,7 +215,7 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
   const std::size_t before_parts = faults.count();
   Names names;
   scene.constants = read_constants(root.find("constants"), names, faults);
-  const bool constants_sound = is_sound(before_parts);
+  const bool constants_read = is_sound(before_parts);
   const Location structure_place = root.require("structure", "an object with the degrees of freedom", faults);
   const Keys structure(structure_place,
                        {"dofs", "masses", "springs", "dampers", "damping", "rotation", "matrices", "names",
@@ -207,18 +232,7 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
     read_dofs(structure.find("dofs"), dofs, faults);
   scene.dofs = dofs.names;
   scene.masses = read_parts(structure.find("masses"), &mass_type(), {}, dofs, source, names, faults);
-  resolve_formulas(scene, names, nullptr);  // for what is given by natural frequencies
-  const auto rows = static_cast<int>(scene.matrices ? scene.matrices->named() : 0);
-  const Location springs = structure.find("springs"), dampers = structure.find("dampers");
-  const Node with_values =
-      with_stiffnesses(springs, {dofs, rows, scene.masses, scene.springs, is_sound(before_parts)},
-                       scene.frequency_unit, faults);
-  scene.springs = read_parts(in_place(springs, with_values), &spring_type(), {}, dofs, source, names, faults);
-  resolve_formulas(scene, names, nullptr);
-  const Node with_damping =
-      with_dampings(dampers, {dofs, rows, scene.masses, scene.springs, is_sound(before_parts)}, faults);
-  scene.dampers =
-      read_parts(in_place(dampers, with_damping), &damper_type(), {}, dofs, source, names, faults);
+  read_springs_and_dampers(structure, dofs, source, is_sound(before_parts), scene, names, faults);
   scene.damping =
       read_parts(structure.find("damping"), nullptr, damping_types(), dofs, source, names, faults);
   scene.rotation = read_one(structure.find("rotation"), rotation_type(), dofs, source, names, faults);
@@ -235,11 +249,9 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
 
   const std::size_t before_ties = faults.count();
   read_ties(root.find("ties"), names, scene, faults);
-  const bool ties_sound = is_sound(before_ties);
+  const bool constants_sound = constants_read && is_sound(before_ties);
   if (is_sound(before_parts)) tie_sectors(ring, scene);
-  const std::size_t before_formulas = faults.count();
-  resolve_formulas(scene, names, &faults);
-  if (parts_sound && is_sound(before_formulas)) check_structure(scene, faults);
+  resolve_numbers(scene, names, parts_sound, faults);
 
   const std::size_t before_harmonics = faults.count();
   scene.harmonics = read_harmonics(root.find("harmonics"), faults);
@@ -251,7 +263,7 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
 
   scene.responses = read_responses(root.find("response"), dofs, faults);
   if (excitation_sound) check_frames(scene, faults);
-  const Parameters parameters{scene, constants_sound && ties_sound, names};
+  const Parameters parameters{scene, constants_sound, names};
   scene.labels = read_labels(root.find("labels"), parameters, faults);
   scene.studies =
       read_studies(root.find("studies"), scene.frequency_unit, parameters, dofs, source, catalogue, faults);

@@ -82,6 +82,21 @@ std::vector<Direction> read_directions(const PartType& type, const Settings& opt
   return directions;
 }
 
+// options_sound: whether the fields are known that the options bring.
+void read_name(const Keys& keys, bool options_sound, Part& part, Names& names, Faults& faults) {
+  const Location name = keys.require("name", "a string, the name of the part", faults);
+  const auto text = read_string(name, "a string, the name of the part", faults);
+  if (text && names.add(*text, name.pointer, faults)) {
+    part.name = *text;
+    if (part.type != nullptr && (options_sound || !part.type->options_bring_fields()))
+      names.set_fields(part.name, part.fields());
+    else
+      names.set_unknown(part.name);
+  } else if (!text || !objection(*text).empty()) {
+    names.set_incomplete();
+  }
+}
+
 // section_type: without a "type"; none: that key is required.
 Part read_part(const Location& place, const PartType* section_type, std::span<const PartType* const> types,
                const Dofs& dofs, const FileSource& source, Names& names, Faults& faults) {
@@ -108,17 +123,7 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
     names.set_incomplete();
     return part;
   }
-  const Location name = keys.require("name", "a string, the name of the part", faults);
-  const auto text = read_string(name, "a string, the name of the part", faults);
-  if (text && names.add(*text, name.pointer, faults)) {
-    part.name = *text;
-    if (part.type != nullptr && (options_sound || !part.type->options_bring_fields()))
-      names.set_fields(part.name, part.fields());
-    else
-      names.set_unknown(part.name);
-  } else if (!text || !objection(*text).empty()) {
-    names.set_incomplete();
-  }
+  read_name(keys, options_sound, part, names, faults);
   if (part.type == nullptr) {  // which may have no place
     if (keys.has("at") || keys.has("between") || keys.has("direction")) read_direction(keys, dofs, faults);
     return part;
