@@ -54,7 +54,7 @@ class SampledLaw final : public elements::Law {
       : law_(std::move(law)), samples_(samples) {}
 
   int directions() const override { return law_->directions(); }
-  bool antisymmetric() const override { return law_->antisymmetric(); }
+  elements::Facts facts() const override { return {.antisymmetric = law_->antisymmetric()}; }
   elements::Traits traits(elements::Fields fields, int direction) const override {
     return law_->traits(fields, direction);
   }

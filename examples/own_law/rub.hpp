@@ -17,9 +17,9 @@ class Rub final : public arcslip::elements::SampledLaw {
   }
   std::span<const std::string_view> slots() const override { return directions_; }
 
-  bool antisymmetric() const override { return true; }
-  bool dissipative() const override { return true; }
-  bool symmetric_step() const override { return false; }  // friction turns the force
+  arcslip::elements::Facts facts() const override {
+    return {.antisymmetric = true, .dissipative = true, .symmetric_step = false};  // friction turns the force
+  }
   arcslip::elements::Traits traits(arcslip::elements::Fields fields, int) const override {
     return {.stiffness = fields[0], .stiffness_field = 0, .several_responses = true, .far_power = 1};
   }

@@ -52,6 +52,29 @@ struct Traits {
   double limit = std::numeric_limits<double>::infinity();  // N: the largest force of friction
 };
 
+/// What is known of a law whatever its fields.
+struct Facts {
+  bool antisymmetric = false;    // f(-q) = -f(q) for every motion, so that one of these has such a force
+  bool contact = false;          // it sticks and slips: Element::friction()
+  bool reports_contact = false;  // it says what its contact does: Element::contact()
+  bool normal_load = false;      // it has one that varies, and may open
+  bool dissipative = false;      // it dissipates energy in a periodic motion
+  bool rate_dependent =
+      false;  // the force has velocities: Element::set_frequency(), StepEnd::v; no memory has
+  bool phase_dependent = false;  // it has the phase of the excitation: StepEnd::phase. Such a law has no free
+                                 // vibration, and no symmetry in time
+  bool may_jump = false;         // without memory: along a smooth motion, and no multipliers are known
+  bool approximates =
+      false;  // coefficients are those of samples that leave an error, which falls with the order
+  bool set_valued = false;     // at rest the force may be any within its limits, as of friction without a
+                               // stiffness: motions that stop are reported (Element::jump_over_bend()), and
+                               // it is refused in time
+  bool symmetric_step = true;  // StepEnd::f_q is symmetric in every state
+  int auxiliary = 0;  // unknowns of the element's own, each with as many coefficients as a displacement,
+                      // and as many equations: the rows of its force after those of the directions
+  int memory = 0;     // internal variables, in time
+};
+
 /// What a law keeps between its calls with the same SampledForce.
 struct Scratch {
   virtual ~Scratch() = default;
@@ -112,28 +135,26 @@ class Law {
 
   virtual int directions() const { return 1; }
 
-  /// f(-q) = -f(q) for every motion, so that an antisymmetric motion has an antisymmetric force.
-  virtual bool antisymmetric() const = 0;
-  /// Whether it sticks and slips: Element::friction().
-  virtual bool has_contact() const { return false; }
-  /// Whether it says what its contact does: Element::contact().
-  virtual bool reports_contact() const { return false; }
-  /// Whether it has a normal load that varies, and may open.
-  virtual bool has_normal_load() const { return false; }
-  /// That load, N, at a displacement along the last direction, where there is one; monotonic.
+  virtual Facts facts() const = 0;
+  bool antisymmetric() const { return facts().antisymmetric; }
+  bool has_contact() const { return facts().contact; }
+  bool reports_contact() const { return facts().reports_contact; }
+  bool has_normal_load() const { return facts().normal_load; }
+  bool dissipative() const { return facts().dissipative; }
+  bool rate_dependent() const { return facts().rate_dependent; }
+  bool phase_dependent() const { return facts().phase_dependent; }
+  bool may_jump() const { return facts().may_jump; }
+  bool approximates() const { return facts().approximates; }
+  bool set_valued() const { return facts().set_valued; }
+  bool symmetric_step() const { return facts().symmetric_step; }
+  int auxiliary() const { return facts().auxiliary; }
+  int memory() const { return facts().memory; }
+
+  /// The normal load, N, at a displacement along the last direction, where there is one; monotonic.
   virtual double normal_load_at(Fields fields, double displacement) const {
     static_cast<void>(fields), static_cast<void>(displacement);
     return 0;
   }
-  /// Whether it dissipates energy in a periodic motion.
-  virtual bool dissipative() const { return has_contact(); }
-  /// Whether the force depends on velocities: Element::set_frequency(), StepEnd::v. Its memory may not.
-  virtual bool rate_dependent() const { return false; }
-  /// Whether the force depends on the phase of the excitation: StepEnd::phase. Such a law has no free
-  /// vibration, and no symmetry in time.
-  virtual bool phase_dependent() const { return false; }
-  /// Whether the force of a law without memory may jump along a smooth motion: then no multipliers are known.
-  virtual bool may_jump() const { return false; }
   /// Adds the angles in one span of the harmonics at which the force of a law without memory has kinks, u as
   /// in Element::move_to, at a base frequency (rad/s).
   virtual void add_kinks(const Harmonics& harmonics, In u, double base_frequency, Fields fields,
@@ -141,11 +162,6 @@ class Law {
     static_cast<void>(harmonics), static_cast<void>(u), static_cast<void>(base_frequency);
     static_cast<void>(fields), static_cast<void>(angles);
   }
-  /// Whether its coefficients are those of samples that leave an error, which falls with the order.
-  virtual bool approximates() const { return false; }
-  /// Whether its force at rest may be any within its limits, as of friction without a stiffness. Harmonic
-  /// balance reports motions that stop (Element::jump_over_bend()); in time it is refused.
-  virtual bool set_valued() const { return false; }
   virtual Traits traits(Fields fields, int direction) const = 0;
   /// The largest |df/dq| while |q| stays within `reach`, N/m; finite.
   virtual double stiffness(Fields fields, int direction, double reach) const = 0;
@@ -157,11 +173,8 @@ class Law {
 
   // In the frequency domain.
 
-  /// Unknowns of the element's own, each with as many coefficients as a displacement, and as many equations:
-  /// the rows of its force after those of the directions.
-  virtual int auxiliary() const { return 0; }
-  /// Their typical size. Norms of solutions weight all unknowns equally: choose units in which they are about
-  /// as large as displacements.
+  /// The typical size of its auxiliary unknowns. Norms of solutions weight all unknowns equally: choose units
+  /// in which they are about as large as displacements.
   virtual double auxiliary_scale(Fields fields) const {
     static_cast<void>(fields);
     return 1;
@@ -183,8 +196,6 @@ class Law {
 
   // In time.
 
-  /// Number of internal variables.
-  virtual int memory() const { return 0; }
   /// The direction whose slider position memory k is, so that its offset is arbitrary while it rests;
   /// -1: none.
   virtual int slider_direction(int k) const {
@@ -208,8 +219,6 @@ class Law {
   virtual void begin(Fields fields, In q, Out z, StepEnd& at) const = 0;
   /// A step to q + dq, with each q monotonic.
   virtual void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const = 0;
-  /// Whether f_q is symmetric in every state.
-  virtual bool symmetric_step() const { return true; }
   /// Elastic energy at q and z, J.
   virtual double stored(Fields fields, In q, In z) const = 0;
   /// The law as automata, if it is piecewise linear. Several act in parallel.

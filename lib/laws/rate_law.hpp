@@ -16,9 +16,9 @@ class RateLaw : public SampledLaw {
   /// f and its derivatives; by_field: one for each field.
   virtual Force force(Fields fields, double q, double v, double* by_field) const = 0;
 
-  bool antisymmetric() const override { return true; }
-  bool dissipative() const final { return true; }
-  bool rate_dependent() const final { return true; }
+  Facts facts() const override {
+    return {.antisymmetric = true, .dissipative = true, .rate_dependent = true};
+  }
   double stiffness(Fields, int, double) const final { return 0; }  // at rest
   double stored(Fields, In, In) const final { return 0; }
 

@@ -77,7 +77,7 @@ def test_numbers_follow_formulas_and_have_units(scene: arcslip.Scene) -> None:
     assert arcslip.Scene(followed.to_dict()) == followed
     with pytest.raises(arcslip.ParameterError, match="given by the formula"):
         followed.replace({"damper.stiffness": 3})
-    for wrong in ["much", "k + ", "2*m", "3 kg", "2*damper.stiffness"]:
+    for wrong in ["much", "k + ", "m", "3 kg", "2*damper.stiffness"]:
         with pytest.raises(arcslip.ParameterError):
             scene.replace({"damper.stiffness": wrong})
 

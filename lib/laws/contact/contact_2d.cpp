@@ -55,10 +55,14 @@ class Contact2d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
 
   std::shared_ptr<const Law> law(const scene::Settings& options) const override;
 
-  bool antisymmetric() const override { return false; }
-  bool has_contact() const override { return true; }
-  bool reports_contact() const override { return true; }
-  bool has_normal_load() const override { return true; }
+  Facts facts() const override {
+    return {.contact = true,
+            .reports_contact = true,
+            .normal_load = true,
+            .dissipative = true,
+            .symmetric_step = false,
+            .memory = 1};
+  }
   double normal_load_at(Fields fields, double x_n) const override { return load(contact_law(fields), x_n); }
   Traits traits(Fields fields, int direction) const override {
     const ContactLaw law = contact_law(fields);
@@ -107,7 +111,6 @@ class Contact2d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
     return force;
   }
 
-  int memory() const override { return 1; }
   int slider_direction(int) const override { return tangential; }
   Eigen::RowVectorXd slider_bound(Fields fields, int, int side) const override {
     const ContactLaw law = contact_law(fields);
@@ -118,7 +121,6 @@ class Contact2d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
     const ContactLaw law = contact_law(fields);
     return law.mu * law.N_0 / law.k_t;
   }
-  bool symmetric_step() const override { return false; }
 
   void memory_at(Fields fields, In q, In f, Out z) const override {
     z[0] = q[tangential] - f[tangential] / fields[contact_field::tangential_stiffness];

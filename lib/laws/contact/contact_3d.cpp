@@ -169,10 +169,14 @@ class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw>, p
   bool options_bring_fields() const override { return false; }
   Contact contact(Fields fields) const override { return plane_contact_law(fields); }
 
-  bool antisymmetric() const override { return false; }
-  bool has_contact() const override { return true; }
-  bool reports_contact() const override { return true; }
-  bool has_normal_load() const override { return true; }
+  Facts facts() const override {
+    return {.contact = true,
+            .reports_contact = true,
+            .normal_load = true,
+            .dissipative = true,
+            .symmetric_step = false,
+            .memory = 2};
+  }
   double normal_load_at(Fields fields, double x_n) const override {
     return plane_contact_law(fields).load(x_n);
   }
@@ -209,9 +213,7 @@ class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw>, p
     return contact_3d_force(h, u, fields, angles);
   }
 
-  int memory() const override { return 2; }
   int slider_direction(int k) const override { return k; }
-  bool symmetric_step() const override { return false; }
 
   void memory_at(Fields fields, In q, In f, Out z) const override {
     z.head<2>() = q.head<2>() - f.head<2>() / fields[contact_field::tangential_stiffness];

@@ -76,8 +76,9 @@ class BoucWen final : public PlainLaw, public Hysteresis {
   std::string_view help() const override { return "smooth hysteresis"; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return bouc_wen_fields; }
 
-  bool antisymmetric() const override { return true; }
-  bool dissipative() const override { return true; }
+  Facts facts() const override {
+    return {.antisymmetric = true, .dissipative = true, .auxiliary = 1, .memory = 1};
+  }
   Traits traits(Fields fields, int) const override {
     const BoucWenFields at(fields);
     return {.stiffness = stiffness(fields, 0, 0),
@@ -91,7 +92,6 @@ class BoucWen final : public PlainLaw, public Hysteresis {
     return at.k * (at.a + (1 - at.a) * 2 * at.s);
   }
 
-  int auxiliary() const override { return 1; }
   double auxiliary_scale(Fields fields) const override { return BoucWenFields(fields).z_y; }
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling& sampling) const override {
     return bouc_wen_element(harmonics, sampling);
@@ -107,7 +107,6 @@ class BoucWen final : public PlainLaw, public Hysteresis {
     return f;
   }
 
-  int memory() const override { return 1; }
   void memory_at(Fields fields, In q, In f, Out z) const override {
     const BoucWenFields at(fields);
     if (at.a < 1) z[0] = std::clamp((f[0] / at.k - at.a * q[0]) / (1 - at.a), -at.z_y, at.z_y);

@@ -149,8 +149,12 @@ class Iwan final : public Law {
  public:
   explicit Iwan(IwanOptions options) : options_(std::move(options)) {}
 
-  bool antisymmetric() const override { return true; }
-  bool has_contact() const override { return true; }
+  Facts facts() const override {
+    return {.antisymmetric = true,
+            .contact = true,
+            .dissipative = true,
+            .memory = is_table() ? static_cast<int>(options_.table.size()) : options_.sliders};
+  }
   Traits traits(Fields fields, int) const override {
     const auto [stiffness, slip_force] = sums(fields);
     return {.stiffness = stiffness,
@@ -173,9 +177,6 @@ class Iwan final : public Law {
     return f;
   }
 
-  int memory() const override {
-    return is_table() ? static_cast<int>(options_.table.size()) : options_.sliders;
-  }
   int slider_direction(int) const override { return 0; }
 
   // As after a first loading to f: all sliders have been moved by s, up to their limits.

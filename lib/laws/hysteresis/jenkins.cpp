@@ -44,9 +44,10 @@ class Jenkins final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
 
   std::shared_ptr<const Law> law(const scene::Settings& options) const override;
 
-  bool antisymmetric() const override { return true; }
-  bool has_contact() const override { return true; }
-  bool reports_contact() const override { return true; }
+  Facts facts() const override {
+    return {
+        .antisymmetric = true, .contact = true, .reports_contact = true, .dissipative = true, .memory = 1};
+  }
   Traits traits(Fields fields, int) const override {
     return {.stiffness = fields[jenkins_field::stiffness],
             .stiffness_field = jenkins_field::stiffness,
@@ -95,7 +96,6 @@ class Jenkins final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
     return force;
   }
 
-  int memory() const override { return 1; }
   int slider_direction(int) const override { return 0; }
   std::optional<double> slider_room(Fields fields, int) const override {
     if (offset_ == Offset::centred) return {};

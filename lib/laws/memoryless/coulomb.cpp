@@ -104,9 +104,7 @@ class Coulomb final : public PlainLaw {
   std::string_view help() const override { return "rigid Coulomb friction, of motions without stops"; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return coulomb_fields; }
 
-  bool antisymmetric() const override { return true; }
-  bool dissipative() const override { return true; }
-  bool set_valued() const override { return true; }
+  Facts facts() const override { return {.antisymmetric = true, .dissipative = true, .set_valued = true}; }
   Traits traits(Fields fields, int) const override {
     return {.far_work = 4 * coulomb_limit(fields), .limit = coulomb_limit(fields)};
   }

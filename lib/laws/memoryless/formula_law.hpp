@@ -51,16 +51,18 @@ class FormulaLaw final : public SampledLaw {
   std::span<const std::string_view> slots() const override { return slots_; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return fields_; }
 
-  bool antisymmetric() const override { return antisymmetric_; }
-  bool dissipative() const override { return !potential_; }
-  bool rate_dependent() const override { return rate_dependent_; }
-  bool phase_dependent() const override { return phase_dependent_; }
-  bool approximates() const override { return !degree_of_pieces_; }
-  bool may_jump() const override { return may_jump_; }
+  Facts facts() const override {
+    return {.antisymmetric = antisymmetric_,
+            .dissipative = !potential_,
+            .rate_dependent = rate_dependent_,
+            .phase_dependent = phase_dependent_,
+            .may_jump = may_jump_,
+            .approximates = !degree_of_pieces_,
+            .symmetric_step = inputs_.directions == 1};
+  }
   void add_kinks(const Harmonics& harmonics, In u, double base_frequency, Fields fields,
                  std::vector<double>& angles) const override;
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling& sampling) const override;
-  bool symmetric_step() const override { return inputs_.directions == 1; }
   Traits traits(Fields fields, int direction) const override;
   double stiffness(Fields fields, int direction, double reach) const override;
   std::optional<std::vector<Automaton>> automata(Fields fields) const override;

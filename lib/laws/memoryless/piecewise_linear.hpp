@@ -45,8 +45,9 @@ class PiecewiseLinearLaw final : public Law {
   /// L is the size of the last field; the second shape is that of its negative values.
   PiecewiseLinearLaw(PiecewiseLinearShape positive, PiecewiseLinearShape negative);
 
-  bool antisymmetric() const override { return antisymmetric_; }
-  bool reports_contact() const override { return shapes_.front().contact; }
+  Facts facts() const override {
+    return {.antisymmetric = antisymmetric_, .reports_contact = shapes_.front().contact};
+  }
   Traits traits(Fields fields, int direction) const override;
   double stiffness(Fields fields, int direction, double reach) const override;
 

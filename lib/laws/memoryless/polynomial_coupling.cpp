@@ -64,8 +64,9 @@ class PolynomialCoupling final : public SampledLaw {
   std::span<const std::string_view> slots() const override { return slots_; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return fields_; }
 
-  bool antisymmetric() const override {
-    return std::all_of(degrees_.begin(), degrees_.end(), [](int n) { return n % 2 == 0; });
+  Facts facts() const override {
+    const auto even = [](int n) { return n % 2 == 0; };
+    return {.antisymmetric = std::all_of(degrees_.begin(), degrees_.end(), even)};
   }
   Traits traits(Fields fields, int direction) const override {
     Traits traits;

@@ -17,7 +17,7 @@ class CoupledSpring final : public elements::SampledLaw {
   std::span<const scene::Field> fields(const scene::Settings&) const override { return fields_; }
   std::span<const std::string_view> slots() const override { return slots_; }
 
-  bool antisymmetric() const override { return true; }
+  elements::Facts facts() const override { return {.antisymmetric = true}; }
   elements::Traits traits(Fields, int) const override {
     return {.stiffness = std::numeric_limits<double>::infinity(),
             .holds_mean = true,

@@ -37,7 +37,7 @@ class PolynomialLaw final : public elements::SampledLaw {
   std::span<const scene::Field> fields(const scene::Settings&) const override {
     return {fields_, static_cast<std::size_t>(degree_)};
   }
-  bool antisymmetric() const override { return degree_ == 1; }
+  elements::Facts facts() const override { return {.antisymmetric = degree_ == 1}; }
   elements::Traits traits(Fields fields, int) const override {
     return {.stiffness = degree_ > 1 ? std::numeric_limits<double>::infinity() : fields[0],
             .holds_mean = true,

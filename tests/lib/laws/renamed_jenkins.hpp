@@ -70,9 +70,7 @@ class RenamedJenkins final : public elements::PlainLaw {
   std::string_view help() const override { return "the Jenkins element under another name"; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return fields_; }
 
-  bool antisymmetric() const override { return law().antisymmetric(); }
-  bool has_contact() const override { return law().has_contact(); }
-  bool reports_contact() const override { return law().reports_contact(); }
+  elements::Facts facts() const override { return law().facts(); }
   elements::Traits traits(Fields fields, int direction) const override {
     elements::Traits traits = law().traits(in_order(fields), direction);
     traits.stiffness_field = 2;
@@ -95,7 +93,6 @@ class RenamedJenkins final : public elements::PlainLaw {
                            elements::Angles angles) const override {
     return law().force_at(harmonics, u, in_order(fields), angles);
   }
-  int memory() const override { return law().memory(); }
   int slider_direction(int k) const override { return law().slider_direction(k); }
   void memory_at(Fields fields, In q, In f, Out z) const override {
     law().memory_at(in_order(fields), q, f, z);

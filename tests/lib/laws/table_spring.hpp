@@ -34,7 +34,7 @@ class TableLaw final : public elements::SampledLaw {
   explicit TableLaw(const std::string& text) : rows_(rows_of(text)) {}
   std::string_view name() const override { return "table_spring"; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return factor; }
-  bool antisymmetric() const override { return false; }
+  elements::Facts facts() const override { return {}; }
   elements::Traits traits(Fields fields, int direction) const override {
     return {.stiffness = stiffness(fields, direction, 0), .holds_mean = true};
   }

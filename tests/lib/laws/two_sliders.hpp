@@ -55,8 +55,9 @@ class TwoSliders : public elements::PlainLaw {
   std::string_view help() const override { return "two sliders side by side"; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return fields_; }
 
-  bool antisymmetric() const override { return true; }
-  bool has_contact() const override { return true; }
+  elements::Facts facts() const override {
+    return {.antisymmetric = true, .contact = true, .dissipative = true, .memory = 2};
+  }
   elements::Traits traits(Fields fields, int) const override {
     elements::Traits sum = one().traits(fields.first(3), 0);
     const elements::Traits other = one().traits(fields.subspan(3), 0);
@@ -79,7 +80,6 @@ class TwoSliders : public elements::PlainLaw {
            one().force_at(harmonics, u, fields.subspan(3), angles);
   }
 
-  int memory() const override { return 2; }
   int slider_direction(int) const override { return 0; }
   // As if both bore the same share of the force.
   void memory_at(Fields fields, In q, In f, Out z) const override {
