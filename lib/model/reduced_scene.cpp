@@ -4,7 +4,6 @@
 #include <arcslip/model/model.hpp>
 #include <arcslip/model/placed_matrices.hpp>
 #include <arcslip/results/text.hpp>
-#include <arcslip/scene/files/csv_text.hpp>
 #include <arcslip/scene/shape.hpp>
 
 #include <algorithm>
@@ -58,7 +57,7 @@ Eigen::MatrixXd semidefinite(Eigen::MatrixXd K, const Eigen::MatrixXd& M, double
 // A name that a table of names holds as it is.
 const std::string& plain_name(const std::string& name) {
   if (name.find_first_of(",\"\r\n") != std::string::npos || name.front() == '#' ||
-      scene::file::trimmed(name).size() != name.size())
+      name.find_first_of(" \t") == 0 || name.find_last_of(" \t") == name.size() - 1)
     throw NotReduced(
         "the degree of freedom " + results::json_quoted(name) +
         " has a name that names.csv cannot hold: use one without commas, quotes and line breaks, "

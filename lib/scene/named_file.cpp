@@ -43,8 +43,10 @@ std::vector<NamedFile*> files(Scene& scene) {
   for (Part& part : scene.elements) add(part.type, part.options);
   for (Part& patch : scene.patches) add(patch.type, patch.options);
   for (Part& part : scene.excitation) add(part.type, part.options);
-  for (Study& study : scene.studies)
+  for (Study& study : scene.studies) {
     if (study.type != nullptr) add(&study.type->settings(), study.settings);
+    if (study.rows_file.text) all.push_back(&study.rows_file);
+  }
   return all;
 }
 

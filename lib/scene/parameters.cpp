@@ -299,7 +299,8 @@ std::string objection_to(const Scene& scene, const Field& field, const NumberTex
 }
 
 void drop(Study& study, std::string_view parameter) {
-  std::erase_if(study.for_each, [&](const auto& list) { return list.first == parameter; });
+  if (std::erase_if(study.for_each, [&](const auto& list) { return list.first == parameter; }) > 0)
+    study.rows_file = {};  // which has other columns
   study.in_rows = study.in_rows && !study.for_each.empty();
   std::erase_if(study.samples.parameters, [&](const auto& sampled) { return sampled.first == parameter; });
   if (study.samples.parameters.empty()) study.samples = {};

@@ -87,6 +87,7 @@ struct Study {
   Settings settings{};
   ValueLists for_each{};
   bool in_rows = false;      // for_each: the k-th values of all lists together, instead of every combination
+  NamedFile rows_file{};     // the CSV file that for_each names, whose rows these are
   sampling::Plan samples{};  // for_each by distributions, in place of lists
   /// Numbers of the settings that are formulas, by their JSON pointers in the study.
   std::vector<std::pair<std::string, NumberText>> texts{};

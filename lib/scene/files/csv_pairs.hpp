@@ -1,7 +1,7 @@
 #pragma once
 // CSV files of pairs: a header of two words, then two values on each line.
 
-#include <arcslip/scene/files/csv_text.hpp>
+#include <arcslip/scene/keys/csv_text.hpp>
 #include <arcslip/scene/keys/read_values.hpp>
 #include <arcslip/scene/named_file.hpp>
 

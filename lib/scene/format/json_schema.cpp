@@ -335,6 +335,10 @@ Node range() {
                       {"from", "to", "count"}));
 }
 
+Node described_text(const char* help) {
+  return of({{"type", node("string")}, {"description", node(help)}});
+}
+
 /// Samples of parameters with distributions.
 Node samples() {
   Node::List one_of;
@@ -378,9 +382,10 @@ Node study_of(const StudyType& type) {
   properties.push_back(
       {"for_each",
        of({{"oneOf",
-            {Node::List{samples(),
-                        map_of(of({{"oneOf", {Node::List{list_of(number_or_text(), 1), range()}}}})),
-                        list_of(map_of(number_or_text()), 1)}}}})});
+            {Node::List{
+                described_text("path of a CSV file: a column for each parameter, a row for each sample"),
+                samples(), map_of(of({{"oneOf", {Node::List{list_of(number_or_text(), 1), range()}}}})),
+                list_of(map_of(number_or_text()), 1)}}}})});
   Object study = object_of(std::move(properties), required);
   if (!needs.empty()) study.push_back({"dependentRequired", of(std::move(needs))});
   study.push_back({"title", node(type.help())});

@@ -1,5 +1,5 @@
 // Patches of contacts, and the CSV files of their rows.
-#include <arcslip/scene/files/csv_text.hpp>
+#include <arcslip/scene/keys/csv_text.hpp>
 #include <arcslip/scene/keys/enum_words.hpp>
 #include <arcslip/scene/keys/read_parts.hpp>
 #include <arcslip/scene/keys/read_studies.hpp>

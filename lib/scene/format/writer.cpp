@@ -210,6 +210,7 @@ Node samples_node(const sampling::Plan& plan) {
 
 Node for_each_node(const Study& study) {
   if (study.samples.count > 0) return samples_node(study.samples);
+  if (study.rows_file.text) return node(study.rows_file.path);
   Node::Object lists;
   Node::List rows;
   for (const auto& [parameter, values] : study.for_each) lists.push_back({parameter, node(values)});

@@ -135,8 +135,9 @@ std::vector<Study> read_studies(const Location& place, FrequencyUnit unit, const
       study.name = *text;
     }
     const Parameters with_texts{all.scene, all.constants_complete, all.names, &study.texts};
-    study.settings = study.type->settings().read({keys, frequency, with_texts, dofs, faults, source});
-    read_for_each(keys.find("for_each"), all, study.type->settings().taken(study.settings), study, faults);
+    const Reading reading{keys, frequency, with_texts, dofs, faults, source};
+    study.settings = study.type->settings().read(reading);
+    read_for_each(keys.find("for_each"), reading, study.type->settings().taken(study.settings), study);
     check_followed(study, item.pointer, all.scene, faults);
     studies.push_back(std::move(study));
   }

@@ -209,6 +209,10 @@ KeyGroup<S> text(const std::string& name, std::string S::*value, const std::stri
 std::optional<NamedFile> read_file_of(const Location& place, const std::string& what, const Reading& reading,
                                       std::size_t largest = largest_size);
 
+/// "for_each": lists of values by parameter, a list of rows, the path of a CSV file with rows, or samples.
+void read_for_each(const Location& place, const Reading& reading, const std::vector<ParameterUse>& taken,
+                   Study& study);
+
 /// The path of a file, which is read with the scene. what: "a string, the path of a table of q and f".
 KeyGroup<NamedFile> named_file(const std::string& name, const std::string& what, std::string help);
 template <class S>

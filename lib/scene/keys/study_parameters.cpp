@@ -241,27 +241,17 @@ class ParameterRows {
 
 }  // namespace
 
-void read_for_each(const Location& place, const Parameters& all, const std::vector<ParameterUse>& taken,
-                   Study& study, Faults& faults) {
-  if (are_samples(place, all)) {
-    study.samples = read_samples(place, all, taken, faults);
-    return;
-  }
-  const Node::List* list = place.node != nullptr ? place.node->get<Node::List>() : nullptr;
-  if (list == nullptr) {
-    study.for_each = read_value_lists(place, all, taken, faults);
-    return;
-  }
-  if (list->empty())
+ValueLists read_rows(const Location& place, const Node::List& list, const Parameters& all,
+                     const std::vector<ParameterUse>& taken, Faults& faults) {
+  if (list.empty())
     faults.add(place.pointer,
                "found an empty list, must be a list of at least one row {\"part.field\": value}");
   ParameterRows rows(all, taken, faults);
-  for (std::size_t i = 0; i < list->size(); ++i) {
-    const Location row{&(*list)[i], child(place.pointer, i)};
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Location row{&list[i], child(place.pointer, i)};
     i == 0 ? rows.read_first(row) : rows.read(row);
   }
-  study.for_each = rows.take();
-  study.in_rows = !study.for_each.empty();
+  return rows.take();
 }
 
 std::vector<std::pair<std::string, std::string>> read_labels(const Location& place, const Parameters& all,

@@ -51,10 +51,9 @@ bool are_samples(const Location& place, const Parameters& all);
 sampling::Plan read_samples(const Location& place, const Parameters& all,
                             const std::vector<ParameterUse>& taken, Faults& faults);
 
-/// "for_each": such lists, a list of rows, {"k.value": 1, "m.value": 2}, all with the same parameters, or
-/// samples.
-void read_for_each(const Location& place, const Parameters& all, const std::vector<ParameterUse>& taken,
-                   Study& study, Faults& faults);
+/// A list of rows, {"k.value": 1, "m.value": 2}, all with the same parameters.
+ValueLists read_rows(const Location& place, const Node::List& list, const Parameters& all,
+                     const std::vector<ParameterUse>& taken, Faults& faults);
 
 /// "labels" of the axes over parameters, and over the quantities of label_names.
 std::vector<std::pair<std::string, std::string>> read_labels(const Location& place, const Parameters& all,

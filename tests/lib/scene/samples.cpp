@@ -2,6 +2,7 @@
 #include "catch.hpp"
 
 #include "lib/hbm/scenes.hpp"
+#include "lib/scene/folder.hpp"
 #include "lib/scene/format/bad_scenes.hpp"
 
 #include <arcslip/scene/combinations.hpp>
@@ -89,4 +90,74 @@ TEST_CASE("responses of samples are those of a list with the same values") {
     };
     CHECK(frequencies(a) == frequencies(b));
   }
+}
+
+namespace {
+
+const std::string named_file = R"("for_each": "mc.csv")";
+
+Scene with_file(const ::Folder& folder, const std::string& csv) {
+  folder.write("mc.csv", csv);
+  std::string text = good_scene_with("{\"d.normal_load\": [1, 2]}", "\"mc.csv\"");
+  folder.write("scene.json", text);
+  return read_file(folder / "scene.json", arcslip::studies::catalogue());
+}
+
+/// Returns the only fault of a file with samples.
+std::string fault_of(const std::string& csv) {
+  const ::Folder folder;
+  try {
+    with_file(folder, csv);
+  } catch (const SceneError& error) {
+    REQUIRE(error.faults().size() == 1);
+    CHECK(error.faults().front().pointer == "/studies/0/for_each");
+    return error.faults().front().message;
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a CSV file of samples is read as rows, and named again where the scene is written") {
+  const ::Folder folder;
+  const Scene s =
+      with_file(folder, "# by a Monte Carlo program\nk.value, m.value (kg)\n100,1\n1.5e2,2\n\n90,3\n");
+  const Combinations all(s.studies[0]);
+  REQUIRE(all.size() == 3);
+  CHECK(all[1] == Setting{{"k.value", 150}, {"m.value", 2}});
+  CHECK(write(s).find(named_file) != std::string::npos);
+  CHECK(read_file(folder / "scene.json", arcslip::studies::catalogue()) == s);
+  Scene other = s;
+  REQUIRE(files(other).size() == 1);
+  CHECK(files(other).front()->path == "mc.csv");
+  const std::string before = hash(s);
+  CHECK(hash(with_file(folder, "k.value,m.value\n100,1\n")) != before);
+  // Without one of its columns the file is no longer what for_each has.
+  set(other, "m.value", 2);
+  CHECK(files(other).empty());
+  CHECK(write(other).find(R"("for_each": [{"k.value": 100}, {"k.value": 150}, {"k.value": 90}])") !=
+        std::string::npos);
+}
+
+TEST_CASE("faults of a CSV file of samples have the line and what is allowed") {
+  CHECK(fault_of("k.valu,m.value\n1,2\n").find("did you mean \"k.value\"?") != std::string::npos);
+  CHECK(fault_of("k.value,m.value (g)\n1,2\n") ==
+        "line 1 of \"mc.csv\": found the title \"m.value (g)\", must be \"m.value (kg)\": numbers have the "
+        "units of the "
+        "scene");
+  CHECK(fault_of("k.value,k.value\n1,2\n") ==
+        "line 1 of \"mc.csv\": found the title \"k.value\" again, must stand only once");
+  CHECK(fault_of("k.value,m.value\n1,2\n1,-2\n") == "line 3 of \"mc.csv\": found -2, must be at least 0 kg");
+  CHECK(fault_of("k.value,m.value\n1,2 kg\n") ==
+        "line 2 of \"mc.csv\": found \"2 kg\", must be a finite number");
+  CHECK(fault_of("k.value,m.value\n1,inf\n") ==
+        "line 2 of \"mc.csv\": found \"inf\", must be a finite number");
+  CHECK(fault_of("k.value,m.value\n1\n") ==
+        "line 2 of \"mc.csv\": found 1 values, must be 2, as the header has");
+  for (const std::string text : {"", "\n# nothing\n", "k.value,m.value\n"})
+    CHECK(fault_of(text) ==
+          "found no rows in \"mc.csv\", must be a header with names of parameters, and a value of each on "
+          "every line");
+  CHECK_THROWS_WITH(scenes::parse(good_scene_with("{\"d.normal_load\": [1, 2]}", "\"none.csv\"")),
+                    Catch::Matchers::Contains("which cannot be read: cannot open"));
 }
