@@ -1,5 +1,6 @@
 #include <arcslip/analyses/branches/model_description.hpp>
 
+#include <arcslip/analyses/branches/branch_description.hpp>
 #include <arcslip/analyses/branches/resonances.hpp>
 #include <arcslip/results/text.hpp>
 
