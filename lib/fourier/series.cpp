@@ -50,10 +50,14 @@ void series_slope(const Harmonics& h, In u, Out slope) {
 }
 
 void powers(double theta, int count, std::complex<double>* z) {
+  powers(std::complex<double>(std::cos(theta), std::sin(theta)), count, z);
+}
+
+void powers(std::complex<double> on_circle, int count, std::complex<double>* z) {
   if (count < 1) return;
   z[0] = 1;
   if (count < 2) return;
-  z[1] = {std::cos(theta), std::sin(theta)};
+  z[1] = on_circle;
   for (int known = 1; known + 1 < count; known *= 2) {  // z[1 .. known] are there
     const double c = z[known].real(), s = z[known].imag();
     const int more = std::min(known, count - 1 - known);

@@ -27,6 +27,8 @@ void series_slope(const Harmonics& harmonics, In u, Out slope);
 
 /// exp(i k theta) for k = 0 .. count - 1, by products of earlier ones (error grows with log k).
 void powers(double theta, int count, std::complex<double>* z);
+/// The same of a number on the unit circle.
+void powers(std::complex<double> on_circle, int count, std::complex<double>* z);
 
 /// sum over n of n^power |X_n|, without the mean: a bound of |d^power x / dtheta^power|.
 double series_bound(const Harmonics& harmonics, In u, int power);

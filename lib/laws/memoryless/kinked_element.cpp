@@ -53,7 +53,7 @@ class KinkedIntegrals {
         v_kink_(2, directions_),
         phase_kink_(2),
         at_kink_(2, directions_, law.inputs().fields),
-        z_(static_cast<std::size_t>(2 * h.order + 1)),
+        powers_(2 * h.order + 1, nodes + 2),
         fields_(static_cast<std::size_t>(law.inputs().fields)),
         u_(directions_ * h.size()),
         F_(u_.size()),
@@ -137,18 +137,28 @@ class KinkedIntegrals {
       for (Moments& each : *all) each.clear();
   }
 
-  // q and v in row s, from z_ there.
-  void set_motion(Eigen::Index s, double theta, Eigen::MatrixXd& q, Eigen::MatrixXd& v,
+  using Complex = std::complex<double>;
+
+  // Those of exp(i theta), kept in a column.
+  const Complex* set_powers(Eigen::Index column, Complex z) {
+    powers(z, static_cast<int>(powers_.rows()), powers_.col(column).data());
+    return powers_.col(column).data();
+  }
+  static Complex product(Complex a, Complex b) {  // without the checks for infinities
+    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+  }
+
+  // q and v in row s, from the powers there.
+  void set_motion(Eigen::Index s, double theta, const Complex* z_n, Eigen::MatrixXd& q, Eigen::MatrixXd& v,
                   Eigen::VectorXd& phase) {
     const Eigen::Index c = h_.size();
     for (int i = 0; i < directions_; ++i) {
       const double* const a = u_.data() + i * c;
       double x = 0, rate = 0;
-      for (int k = 0; k < h_.cosines(); ++k)
-        x += a[k] * z_[static_cast<std::size_t>(h_.cosine_order(k))].real();
+      for (int k = 0; k < h_.cosines(); ++k) x += a[k] * z_n[h_.cosine_order(k)].real();
       for (int j = 0; j < h_.sines(); ++j) {
         const int n = h_.sine_order(j);
-        const std::complex<double> z = z_[static_cast<std::size_t>(n)];
+        const Complex z = z_n[n];
         const double cosine = a[h_.cosine_index(n)], sine = a[h_.sine_index(n)];
         x += sine * z.imag();
         rate += n * (sine * z.real() - cosine * z.imag());
@@ -159,24 +169,25 @@ class KinkedIntegrals {
     phase[s] = h_.period * theta;
   }
 
-  void set_basis() {
-    for (int k = 0; k < h_.cosines(); ++k) phi_[k] = z_[static_cast<std::size_t>(h_.cosine_order(k))].real();
-    for (int j = 0; j < h_.sines(); ++j)
-      phi_[h_.cosines() + j] = z_[static_cast<std::size_t>(h_.sine_order(j))].imag();
+  void set_basis(const Complex* z_n) {
+    for (int k = 0; k < h_.cosines(); ++k) phi_[k] = z_n[h_.cosine_order(k)].real();
+    for (int j = 0; j < h_.sines(); ++j) phi_[h_.cosines() + j] = z_n[h_.sine_order(j)].imag();
   }
 
   void integrate(Wanted wanted) {
     clear(wanted);
     for (const Panel& panel : panels_) {
-      for (int s = 0; s < nodes; ++s) {
-        powers(angle(panel, s), 2 * h_.order + 1, z_.data());
-        set_motion(s, angle(panel, s), q_, v_, phase_);
+      const Complex middle = std::polar(1.0, panel.middle);
+      for (int s = 0; s < nodes; s += 2) {
+        const Complex off = std::polar(1.0, panel.half * gauss_nodes[static_cast<std::size_t>(s / 2)]);
+        for (int side = 0; side < 2; ++side) {
+          const Complex* const z_n = set_powers(s + side, product(middle, side == 0 ? std::conj(off) : off));
+          set_motion(s + side, angle(panel, s + side), z_n, q_, v_, phase_);
+        }
       }
       law_.sample_motion(fields_, {q_, v_, phase_}, wanted, at_);
-      for (int s = 0; s < nodes; ++s) {
-        powers(angle(panel, s), 2 * h_.order + 1, z_.data());
+      for (int s = 0; s < nodes; ++s)
         add_node(s, gauss_weights[static_cast<std::size_t>(s / 2)] * panel.half * factor(), wanted);
-      }
     }
     const auto half_mean = [&](auto&& columns) {
       for (int i = 0; i < directions_ && !h_.odd; ++i) columns.row(i * h_.size()) *= 0.5;
@@ -192,7 +203,8 @@ class KinkedIntegrals {
 
   void add_node(int s, double weight, Wanted wanted) {
     const Eigen::Index c = h_.size();
-    set_basis();
+    const Complex* const z_n = powers_.col(s).data();
+    set_basis(z_n);
     for (int i = 0; i < directions_; ++i) {
       if (wanted == Wanted::by_fields) {
         for (Eigen::Index k = 0; k < by_field_.cols(); ++k)
@@ -204,17 +216,17 @@ class KinkedIntegrals {
       if (wanted != Wanted::tangent) continue;
       for (int j = 0; j < directions_; ++j) {
         const Eigen::Index column = j * directions_ + i;
-        add_moments(weight * at_.f_q(s, column), by_q_[static_cast<std::size_t>(column)]);
+        add_moments(weight * at_.f_q(s, column), z_n, by_q_[static_cast<std::size_t>(column)]);
         if (by_v_.empty()) continue;
-        add_moments(weight * at_.f_v(s, column), by_v_[static_cast<std::size_t>(column)]);
+        add_moments(weight * at_.f_v(s, column), z_n, by_v_[static_cast<std::size_t>(column)]);
         by_frequency_.segment(i * c, c) += weight * at_.f_v(s, column) * v_(s, j) / frequency_ * phi_;
       }
     }
   }
 
-  void add_moments(double weight, Moments& to) const {
+  void add_moments(double weight, const Complex* z_n, Moments& to) const {
     for (int q = 0; q < to.count(); ++q) {
-      const std::complex<double> z = z_[static_cast<std::size_t>(q * h_.stride())];
+      const Complex z = z_n[q * h_.stride()];
       to.add(q, weight * z.real(), weight * z.imag());
     }
   }
@@ -228,8 +240,8 @@ class KinkedIntegrals {
     for (std::size_t k = 0; k < kinks.size(); ++k) {
       for (int side = 0; side < 2; ++side) {
         const double theta = kinks[k].theta + (side == 0 ? -next_to_kink : next_to_kink);
-        powers(theta, 2 * h_.order + 1, z_.data());
-        set_motion(side, theta, q_kink_, v_kink_, phase_kink_);
+        set_motion(side, theta, set_powers(nodes + side, std::polar(1.0, theta)), q_kink_, v_kink_,
+                   phase_kink_);
       }
       law_.sample_motion(fields_, {q_kink_, v_kink_, phase_kink_}, Wanted::force, at_kink_);
       for (int i = 0; i < directions_; ++i) {
@@ -262,8 +274,7 @@ class KinkedIntegrals {
       }
     for (const Jump& jump : jumps_) {
       finder_.rate(finder_.kinks()[jump.kink], kink_rate_);
-      powers(finder_.kinks()[jump.kink].theta, 2 * h_.order + 1, z_.data());
-      set_basis();
+      set_basis(set_powers(nodes, std::polar(1.0, finder_.kinks()[jump.kink].theta)));
       J_.middleRows(jump.direction * c, c).noalias() +=
           (factor() * jump.size) * phi_ * kink_rate_.transpose();
     }
@@ -288,8 +299,7 @@ class KinkedIntegrals {
     for (const Jump& jump : jumps_) {
       const Kink& kink = finder_.kinks()[jump.kink];
       const double moved = rate(kink);
-      powers(kink.theta, 2 * h_.order + 1, z_.data());
-      set_basis();
+      set_basis(set_powers(nodes, std::polar(1.0, kink.theta)));
       auto own = dF.segment(jump.direction * c, c);
       phi_ *= factor() * jump.size * moved;
       if (!h_.odd) phi_[0] *= 0.5;
@@ -317,7 +327,7 @@ class KinkedIntegrals {
   Eigen::MatrixXd q_kink_, v_kink_;
   Eigen::VectorXd phase_kink_;
   SampledForce at_kink_;
-  std::vector<std::complex<double>> z_;
+  Eigen::MatrixXcd powers_;  // a column for each node of a panel, and two at kinks
   std::vector<double> fields_;
   std::vector<Moments> by_q_, by_v_;
   Eigen::VectorXd u_, F_, by_frequency_, kink_rate_, phi_;
