@@ -139,7 +139,7 @@ std::vector<std::vector<std::string>> text_rows(const Schema& schema,
     const PrefixedUnit in = prefixed(each.unit, largest);
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (c < rows[i].size() && std::isfinite(rows[i][c].value))
-        texts[i + 1][c] = with_error(in.factor * rows[i][c].value, in.factor * rows[i][c].error, "%.8g");
+        texts[i + 1][c] = with_error(in.factor * rows[i][c].value, in.factor * rows[i][c].error, "%.6f");
     titles.push_back(each.unit.empty() ? each.title : with_unit(each.title, in.unit));
   }
   titles.push_back(schema.noun);

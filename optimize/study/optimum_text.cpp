@@ -26,7 +26,7 @@ std::string number(double value, const char* format = "%.8g") {
 // An amplitude in m, mm or so.
 std::string metres(double value, double error = 0) {
   const results::PrefixedUnit in = results::prefixed("m", value);
-  return number(in.factor * value, in.factor * error, "%.8g") + " " + in.unit;
+  return number(in.factor * value, in.factor * error, "%.6f") + " " + in.unit;
 }
 
 std::string with_unit(const scene::Scene& scene, const std::string& parameter, double value,

@@ -210,6 +210,8 @@ class Results(Sequence[Result]):
         Of the scene and of all that it names.
     title, frequency_unit : str
         Of the scene.
+    notes : list of str
+        What the scene left open, such as a window that was proposed.
     reduction : dict
         How the matrices of the structure were reduced; empty where they were not.
     """
@@ -219,6 +221,7 @@ class Results(Sequence[Result]):
         self.scene_hash: str = header["scene_hash"]
         self.title: str = header["title"]
         self.frequency_unit: str = header["frequency_unit"]
+        self.notes: list[str] = list(header.get("notes") or [])
         self.reduction: dict[str, Any] = header["reduction"]
         self._all = tuple(results)
         self._core = core
@@ -371,7 +374,7 @@ class Results(Sequence[Result]):
         return of_results(self)
 
 
-HEADER = ("program", "scene_hash", "title", "frequency_unit", "reduction")
+HEADER = ("program", "scene_hash", "title", "frequency_unit", "notes", "reduction")
 
 
 def _label(name: str, unit: str, labels: Mapping[str, str]) -> str:

@@ -64,6 +64,7 @@ nb::dict header(const Results& results) {
   all["scene_hash"] = results.header.scene_hash;
   all["title"] = results.header.title;
   all["frequency_unit"] = results.header.frequency_unit;
+  all["notes"] = results.header.notes;
   all["reduction"] = as_dict(results.header.reduction);
   return all;
 }

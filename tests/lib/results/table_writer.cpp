@@ -94,9 +94,9 @@ TEST_CASE("a column with a unit has one prefix, by the largest of its numbers, a
   auto& columns = results.results[0].tables[0].columns;
   columns.push_back({std::vector<double>{0, 4e-8}});
   CHECK(printed(results) ==
-        "load (N)     x (mm)     word  load     thing\n"
-        "     2.5  0.6943436  =a, \"b\"     3  complete\n"
-        "     2.5     8.3424              -  complete\n");
+        "load (N)    x (mm)     word  load     thing\n"
+        "     2.5  0.694344  =a, \"b\"     3  complete\n"
+        "     2.5    8.3424              -  complete\n");
   std::get<std::vector<double>>(columns[0].of) = {std::nan(""), 42};
   CHECK(printed(results).starts_with("load (N)  x (m) "));
   CHECK(printed(results).find("     2.5      -  =a") != std::string::npos);

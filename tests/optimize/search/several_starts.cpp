@@ -165,7 +165,7 @@ TEST_CASE("results tell how many starts led to the optimum, and how high the oth
   const scene::Scene s = three_masses();
   const auto text = [&] { return optimize::text_of(s, result); };
   CHECK(text().find("  6 of 9 starts led to it, within 1e-06 of the amplitude, the others to minima of up to "
-                    "2.5 mm; 1 ended at no minimum\n") != std::string::npos);
+                    "2.500000 mm; 1 ended at no minimum\n") != std::string::npos);
   std::ostringstream json;
   results::write_json(json, studies::collected<optimize::OptimumResult>(
                                 s, optimize::described_optima(s, result.problem), {&result, 1}));
