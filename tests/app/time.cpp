@@ -27,7 +27,7 @@ TEST_CASE("time finds the exact periodic motion, and prints it as a table or as 
   CHECK(table.exit_code == 0);
   CHECK(table.err.empty());
   CHECK(table.out.find("  method  frequency (Hz)") == 0);
-  CHECK(table.out.find("A_max (mm)  stick (%)  E_friction (mJ)  E_viscous (mJ)") != std::string::npos);
+  CHECK(table.out.find("A_max (mm)  stick (%)  E_friction (mJ)  E_viscous (\u00b5J)") != std::string::npos);
   CHECK(place.read("time.csv")
             .find("study,motion,time (s),displacement (m),velocity (m/s),damper.displacement (m)") == 0);
 
