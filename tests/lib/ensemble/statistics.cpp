@@ -36,6 +36,17 @@ std::string computed(const std::string& path, const std::string& keep, const std
 const std::string two_parameters = R"({"distributions": {"k.value": {"normal": [100, 5]},
     "f.cosine": {"uniform": [1, 2]}}, "count": 150})";
 
+/// A Duffing oscillator with a peak and two folds at each level of its force.
+scene::Scene duffing_scene() {
+  return scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
+    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
+      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
+    "elements": [{"name": "nl", "type": "cubic_spring", "at": "x", "stiffness": 1}],
+    "excitation": [{"name": "force", "at": "x", "cosine": 1}], "response": {"at": "x"},
+    "harmonics": {"order": 5},
+    "studies": [{"kind": "frf", "from": 0.5, "to": 4, "stability": true, "for_each": {"force.cosine": [0.5, 1, 2]}}]})");
+}
+
 std::vector<double> values(Database& database, const std::string& column) {
   std::vector<double> all;
   Statement select(database, "SELECT \"" + column + "\" FROM samples WHERE status = 'complete'");
@@ -158,14 +169,7 @@ TEST_CASE(
     "quantities without the curve between events are those with it, also where motions lose their "
     "stability") {
   const Folder folder;
-  // A Duffing oscillator with two folds.
-  const scene::Scene duffing = scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s",
-    "structure": {"dofs": ["x"], "masses": [{"name": "m", "at": "x", "value": 1}],
-      "springs": [{"name": "k", "at": "x", "value": 1}], "dampers": [{"name": "c", "at": "x", "value": 0.1}]},
-    "elements": [{"name": "nl", "type": "cubic_spring", "at": "x", "stiffness": 1}],
-    "excitation": [{"name": "force", "at": "x", "cosine": 1}], "response": {"at": "x"},
-    "harmonics": {"order": 5},
-    "studies": [{"kind": "frf", "from": 0.5, "to": 4, "stability": true, "for_each": {"force.cosine": [0.5, 1, 2]}}]})");
+  const scene::Scene duffing = duffing_scene();
   for (const std::string keep :
        {"fold.amplitude,fold.frequency,stable", "fold.amplitude,fold.frequency,stable,points"})
     ensemble::run(duffing, duffing.studies[0], {.path = folder / keep, .keep = keep});
@@ -181,4 +185,24 @@ TEST_CASE(
   Database few(folder / "a.sqlite", Database::Access::read), all(folder / "b.sqlite", Database::Access::read);
   const std::vector<double> a = values(few, "amplitude"), b = values(all, "amplitude");
   for (std::size_t i = 0; i < 150; ++i) CHECK_THAT(a[i], WithinRel(b[i], 1e-9));
+}
+
+TEST_CASE("a quantity is that of the event with the largest amplitude, of a kind or of all") {
+  const Folder folder;
+  const std::string path = folder / "a.sqlite";
+  const scene::Scene duffing = duffing_scene();
+  ensemble::run(duffing, duffing.studies[0],
+                {.path = path, .keep = "frequency,fold.frequency,cusp.frequency,events", .threads = 2});
+  Database database(path, Database::Access::read);
+  CHECK(std::get<long>(database.value("SELECT count(*) FROM events WHERE kind = 'fold'")) >= 4);
+  Statement select(
+      database,
+      "SELECT frequency, (SELECT frequency FROM events AS e WHERE e.sample = s.sample ORDER BY "
+      "amplitude DESC LIMIT 1), \"fold.frequency\", (SELECT frequency FROM events AS e WHERE e.sample "
+      "= s.sample AND kind = 'fold' ORDER BY amplitude DESC LIMIT 1), \"cusp.frequency\" FROM samples AS s");
+  while (select.step()) {
+    CHECK(select.number(0) == select.number(1));
+    CHECK(select.number(2) == select.number(3));
+    CHECK(select.is_null(4));
+  }
 }
