@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import sqlite3
 import tempfile
 import time
 import warnings
@@ -25,6 +24,8 @@ from .progress import Progress, Report, reporting
 from .tables import Table, as_array
 
 if TYPE_CHECKING:
+    import sqlite3
+
     from .scene import Scene
 
 #: All samples, however many there are.
@@ -45,6 +46,8 @@ def quoted(name: str) -> str:
 
 def connected(path: str | os.PathLike[str], mode: str = "ro") -> sqlite3.Connection:
     """Return a connection to a file."""
+    import sqlite3  # which not every build of Python has
+
     return sqlite3.connect(f"{Path(path).absolute().as_uri()}?mode={mode}", uri=True, isolation_level=None)
 
 
@@ -85,6 +88,8 @@ class Ensemble(Table):
         self.path = Path(path)
         if not self.path.is_file():
             raise FileNotFoundError(f"found no file {str(self.path)!r}")
+        import sqlite3
+
         try:
             with closing(connected(self.path)) as file:
                 self.about = dict(file.execute("SELECT key, value FROM ensemble"))

@@ -54,7 +54,7 @@ def test_import_takes_numpy_alone() -> None:
     code = "import sys, arcslip; print(sorted({name.split('.')[0] for name in sys.modules}))"
     found = subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, check=True).stdout
     assert "'numpy'" in found
-    for name in ["scipy", "matplotlib", "pandas", "xarray", "tqdm"]:
+    for name in ["scipy", "matplotlib", "pandas", "xarray", "tqdm", "sqlite3"]:
         assert f"'{name}'" not in found
 
 
