@@ -108,9 +108,9 @@ TEST_CASE("an undamped resonance of the linear coordinates of a large sector is 
   for (const bool dense : {false, true}) {
     model::Model model = long_sector(dofs, 7, 0, false, false, dense);
     model.dampers.clear();
-    model.matrices.front().parameter = static_cast<int>(model.parameters.size());
+    model.matrices.front().number = static_cast<int>(model.parameters.size());
     model.parameters.push_back({"speed", "-", 0, 1, 0, 1});
-    for (auto& mass : model.masses) model.parameters[static_cast<std::size_t>(mass.parameter)].value = 1;
+    for (auto& mass : model.masses) model.parameters[static_cast<std::size_t>(mass.number.parameter())].value = 1;
     hbm::DynamicStiffness stiffness(model, hbm::coordinates(model, 1), model.harmonics);
     Vector p = model::defaults(model);
     // 59 masses between two walls, for the last one stands still.
