@@ -19,11 +19,14 @@ namespace arcslip::app {
 namespace {
 
 void apply(scene::Scene& scene, const CommandOptions& options) {
-  for (const auto& [name, value] : options.set) {
+  for (const auto& [parameter, text, value] : options.set) {
     try {
-      scene::set(scene, name, value);
+      if (value)
+        scene::set(scene, parameter, *value);
+      else
+        scene::set_text(scene, parameter, text);
     } catch (const scene::ParameterError& error) {
-      throw UsageError("--set " + name + "=" + results::shortest(value) + ": " + error.what());
+      throw UsageError("--set " + parameter + "=" + text + ": " + error.what());
     }
   }
   if (options.harmonics || options.accuracy) {
@@ -172,10 +175,10 @@ void check_set(const std::vector<Key>& known, const std::vector<Member>& keys,
                const CommandOptions& options) {
   for (const Key& key : known) {
     if (key.type != KeyType::parameter && key.type != KeyType::followed) continue;
-    for (const auto& [parameter, value] : options.set) {
+    for (const auto& [parameter, text, value] : options.set) {
       if (parameter == parameter_at(keys, key.name)) {
         throw UsageError(
-            "--set " + parameter + "=" + results::shortest(value) + ": the study " +
+            "--set " + parameter + "=" + text + ": the study " +
             (key.type == KeyType::followed
                  ? "continues the optimum over this parameter; give " + option_of(key.name) + " for its range"
                  : "varies this parameter; give --from and --to for its range"));

@@ -193,7 +193,26 @@ void add_columns(const std::vector<Column>& from, std::vector<Column>& to) {
       to.push_back(column);
 }
 
-/// What people are shown of events; of results without them the first facts that are numbers or texts.
+/// The first facts: numbers of the optimum, then others that are numbers or texts.
+std::vector<results::Shown> shown_facts(const results::Object& facts) {
+  std::vector<results::Shown> shown;
+  const auto add = [&](std::string title, std::vector<std::string> path) {
+    if (shown.size() < facts_shown) shown.push_back({.title = std::move(title), .path = std::move(path)});
+  };
+  for (const results::Member& fact : facts) {
+    const auto* optimum = std::get_if<results::Object>(&fact.value.get());
+    if (optimum == nullptr || fact.key != "optimum") continue;
+    for (const results::Member& each : *optimum)
+      if (std::holds_alternative<double>(each.value.get())) add(each.key, {fact.key, each.key});
+  }
+  for (const results::Member& fact : facts)
+    if (std::holds_alternative<double>(fact.value.get()) ||
+        std::holds_alternative<std::string>(fact.value.get()))
+      add(fact.key, {fact.key});
+  return shown;
+}
+
+/// What people are shown of events; of results without them the first facts.
 std::vector<results::Shown> shown_in(const results::Schema& schema, const results::Object& facts) {
   std::vector<results::Shown> shown;
   for (const results::Table& table : schema.tables)
@@ -204,13 +223,7 @@ std::vector<results::Shown> shown_in(const results::Schema& schema, const result
       if (table.key == schema.shown_table && is_usual)
         shown.push_back({.title = name_in_tables(column), .path = column.path, .unit = column.unit});
     }
-  if (schema.shown_table.empty())
-    for (const results::Member& fact : facts) {
-      const bool is_plain = std::holds_alternative<double>(fact.value.get()) ||
-                            std::holds_alternative<std::string>(fact.value.get());
-      if (is_plain && shown.size() < facts_shown) shown.push_back({fact.key, {fact.key}});
-    }
-  return shown;
+  return schema.shown_table.empty() ? shown_facts(facts) : shown;
 }
 
 /// Adds the results of a list, with a schema of all columns that any of them has.

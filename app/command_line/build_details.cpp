@@ -20,6 +20,8 @@ constexpr std::array libraries = {
     Library{"SuiteSparse (CHOLMOD)", ARCSLIP_SUITESPARSE_VERSION, "LGPL-2.1-or-later, GPL-2.0-or-later"},
     Library{"NLopt", ARCSLIP_NLOPT_VERSION, "MIT, LGPL-2.1-or-later"},
     Library{"nlohmann/json", ARCSLIP_JSON_VERSION, "MIT"},
+    Library{"Boost", ARCSLIP_BOOST_VERSION, "BSL-1.0"},
+    Library{"SQLite", ARCSLIP_SQLITE_VERSION, "public domain"},
     Library{"CLI11", ARCSLIP_CLI11_VERSION, "BSD-3-Clause"},
     Library{"matio (of arcslip-mat)", ARCSLIP_MATIO_VERSION, "BSD-2-Clause"},
 };

@@ -46,13 +46,14 @@ std::vector<Verb> verbs_of(const scene::Catalogue& catalogue) {
 
 /// The options of every verb that takes a scene.
 void add_scene_options(CLI::App& verb, CommandOptions& options, Texts& texts) {
-  verb.add_option("SCENE", options.scene, "scene file (JSON, format arcslip-scene-1)")
+  verb.add_option("SCENE", options.scene, "scene file (JSON, format arcslip-scene-2)")
       ->required()
       ->type_name("");
   verb.footer(std::string(exit_codes));
-  verb.add_option("--set", texts.set,
-                  "set a parameter, e.g. damper.normal_load=3; overrides its values in for_each, cases and "
-                  "scatter; may be repeated")
+  verb.add_option(
+          "--set", texts.set,
+          "set a parameter, e.g. damper.normal_load=3, \"m=800 g\" or \"damper.stiffness=0.12*k\"; overrides "
+          "its values in for_each, cases and scatter; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME.FIELD=VALUE");
   verb.add_option("--harmonics", texts.harmonics, "highest harmonic of the harmonic balance")->type_name("N");
@@ -170,6 +171,7 @@ CLI::App* add_new_verb(OptionTree& tree, const std::string& kind) {
       tree.app.add_subcommand(new_verb, "write a scene to begin with, with comments and studies");
   verb->group("Verbs");
   verb->require_subcommand(1);
+  verb->formatter(std::make_shared<CLI::Formatter>());  // that of the program is shared by all verbs
   verb->get_formatter()->label("SUBCOMMAND", "KIND");
   verb->footer("Run arcslip new KIND --help for the numbers of a kind.");
   for (const NewKind& each : new_kinds()) {

@@ -20,13 +20,12 @@ std::optional<double> finite_number(const std::string& text) {
 
 }  // namespace
 
-std::pair<std::string, double> assignment(const std::string& text) {
-  const auto equals = text.rfind('=');
+Assignment assignment(const std::string& text) {
+  const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw UsageError("--set " + text + ": give it as name.field=value, such as --set damper.normal_load=3");
   const std::string value = text.substr(equals + 1);
-  if (const auto parsed = finite_number(value)) return {text.substr(0, equals), *parsed};
-  throw UsageError("--set " + text + ": found the value \"" + value + "\", must be a finite number");
+  return {text.substr(0, equals), value, finite_number(value)};
 }
 
 std::optional<double> number(const std::string& option, const std::string& text, const std::string& what) {

@@ -12,7 +12,7 @@
 namespace arcslip::app {
 
 /// --set name.field=value.
-std::pair<std::string, double> assignment(const std::string& text);
+Assignment assignment(const std::string& text);
 
 /// what: the expected value in error messages, "a finite number".
 std::optional<double> number(const std::string& option, const std::string& text, const std::string& what);

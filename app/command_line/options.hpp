@@ -38,11 +38,17 @@ struct EnsembleOptions {
   std::vector<std::string> parts;  // paths
 };
 
+/// Of --set: a parameter and its value, or a text with a unit or a formula.
+struct Assignment {
+  std::string parameter, text;
+  std::optional<double> value;  // none: it is no plain number
+};
+
 struct CommandOptions {
   std::string verb;                        // "run", "check", "show" ..., or the verb of a kind of study
   const scene::StudyType* type = nullptr;  // of the verb
   std::string scene;                       // path
-  std::vector<std::pair<std::string, double>> set;  // parameter and value
+  std::vector<Assignment> set;
   std::optional<int> harmonics;
   std::optional<double> accuracy;
   std::vector<GivenKey> keys;                    // of the study; run: of its frequency responses
@@ -55,9 +61,9 @@ struct CommandOptions {
   std::map<std::string, double> new_numbers;     // by their options, those that are given
   std::map<std::string, std::string> new_texts;  // names, and files by what stands for them in the usage
   EnsembleOptions ensemble;
-  std::array<std::string, 2> files{};            // of results
-  std::string x, y;                              // columns to plot; "": the usual ones
-  double tolerance = 0;                          // of compare
+  std::array<std::string, 2> files{};  // of results
+  std::string x, y;                    // columns to plot; "": the usual ones
+  double tolerance = 0;                // of compare
   bool coefficients = false;
   bool quiet = false;
 };

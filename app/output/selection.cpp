@@ -60,6 +60,14 @@ results::Cells cells_of(const results::Cells& all, const Kept& kept) {
   return some;
 }
 
+/// The text of a cell, in columns of texts and of values of any type; "" if it is none.
+std::string text_in(const results::Cells& cells, std::size_t row) {
+  if (const auto* texts = std::get_if<std::vector<std::string>>(&cells.of)) return (*texts)[row];
+  const auto* values = std::get_if<std::vector<results::Value>>(&cells.of);
+  const auto* text = values != nullptr ? std::get_if<std::string>(&(*values)[row].get()) : nullptr;
+  return text != nullptr ? *text : "";
+}
+
 /// The rows whose kind is selected; those of a table without kinds.
 std::vector<std::size_t> rows_of(const Selection& selection, const results::Table& table,
                                  const results::Rows& rows) {
@@ -68,11 +76,9 @@ std::vector<std::size_t> rows_of(const Selection& selection, const results::Tabl
     return each.path == std::vector<std::string>{kind_column};
   });
   const auto at = static_cast<std::size_t>(column - table.columns.begin());
-  const auto* kind = column != table.columns.end() && at < rows.columns.size()
-                         ? std::get_if<std::vector<std::string>>(&rows.columns[at].of)
-                         : nullptr;
+  const bool all = selection.events.empty() || column == table.columns.end() || at >= rows.columns.size();
   for (std::size_t i = 0; i < rows.count; ++i)
-    if (selection.events.empty() || kind == nullptr || has(selection.events, (*kind)[i])) kept.push_back(i);
+    if (all || has(selection.events, text_in(rows.columns[at], i))) kept.push_back(i);
   return kept;
 }
 

@@ -113,8 +113,8 @@ class Samples {
       sample.quantities.resize(kept_.quantities.size());
       return sample;
     }
+    if (!control.keep_going()) return std::nullopt;  // what was left out is seen in no status
     put_status(all, sample);
-    if (sample.status != "complete" && !control.keep_going()) return std::nullopt;
     if (sample.status == "complete" && !all.empty())
       std::call_once(checked_, [&] { check_facts(with_units_, all.front()); });
     sample.results = static_cast<long>(all.size());

@@ -42,7 +42,11 @@ void for_each(std::size_t count, Function function) {
 }  // namespace
 
 Evaluator::Evaluator(const Formula& formula)
-    : formula_(formula), varies_(formula.nodes().size()), active_(formula.nodes().size()) {}
+    : formula_(formula),
+      varies_(formula.nodes().size()),
+      active_(formula.nodes().size()),
+      at_(formula.nodes().size()),
+      reached_(formula.nodes().size()) {}
 
 bool Evaluator::has_marks(std::span<const InputValues> inputs,
                           std::span<const Derivative> derivatives) const {
@@ -104,7 +108,9 @@ void Evaluator::compute(std::span<const InputValues> inputs, std::size_t samples
       if (!differentiated) continue;
       for (int n = 0; n <= results[k]; ++n) {
         const Node& node = formula_.nodes()[static_cast<std::size_t>(n)];
-        if (node.operation != Operation::input || !active_[static_cast<std::size_t>(n)]) continue;
+        if (node.operation != Operation::input || !active_[static_cast<std::size_t>(n)] ||
+            !reached_[static_cast<std::size_t>(n)])
+          continue;
         for (const Derivative& derivative : derivatives)
           if (derivative.expression == k && derivative.input == node.input())
             std::copy_n(adjoints_of(n), count, derivative.to + from);
@@ -117,11 +123,12 @@ void Evaluator::compute_values(std::span<const InputValues> inputs, std::size_t 
   const auto nodes = formula_.nodes();
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const Node& node = nodes[n];
-    double* const __restrict f = values_of(static_cast<int>(n));
+    double* const __restrict f = values_.data() + n * stride_;
+    at_[n] = f;
     if (node.operation == Operation::input) {
       const InputValues& input = inputs[static_cast<std::size_t>(node.input())];
       if (input.varies)
-        std::copy_n(input.at + from, count, f);
+        at_[n] = input.at + from;
       else
         std::fill_n(f, count, *input.at);
       continue;
@@ -171,12 +178,12 @@ void Evaluator::set_values(const Node& node, std::size_t count, double* __restri
 void Evaluator::go_back(std::size_t expression, std::size_t count) {
   const auto nodes = formula_.nodes();
   const int last = formula_.results()[expression];
-  for (int n = 0; n < last; ++n)
-    if (active_[static_cast<std::size_t>(n)]) std::fill_n(adjoints_of(n), count, 0.0);
+  std::fill_n(reached_.begin(), last + 1, char(0));
   std::fill_n(adjoints_of(last), count, 1.0);
+  reached_[static_cast<std::size_t>(last)] = 1;
   for (int n = last; n >= 0; --n) {
-    const Node& node = nodes[static_cast<std::size_t>(n)];
-    if (active_[static_cast<std::size_t>(n)] && node.operation != Operation::input) pass_on(node, n, count);
+    const auto at = static_cast<std::size_t>(n);
+    if (active_[at] && reached_[at] && nodes[at].operation != Operation::input) pass_on(nodes[at], n, count);
   }
 }
 
@@ -188,7 +195,12 @@ void Evaluator::pass_on(const Node& node, int n, std::size_t count) {
   const auto add = [&](int argument, auto derivative) {
     if (argument < 0 || !active_[static_cast<std::size_t>(argument)]) return;
     double* const to = adjoints_of(argument);
-    for (std::size_t s = 0; s < count; ++s) to[s] += derivative(s);
+    char& reached = reached_[static_cast<std::size_t>(argument)];
+    if (reached)
+      for (std::size_t s = 0; s < count; ++s) to[s] += derivative(s);
+    else
+      for (std::size_t s = 0; s < count; ++s) to[s] = derivative(s);
+    reached = 1;
   };
   const Rule& by = rule(node.operation);
   switch (node.operation) {

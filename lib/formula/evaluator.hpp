@@ -46,7 +46,7 @@ class Evaluator {
                          const double* b, const double* c);
   void go_back(std::size_t expression, std::size_t count);
   void pass_on(const Node& node, int n, std::size_t count);
-  double* values_of(int node) { return values_.data() + static_cast<std::size_t>(node) * stride_; }
+  const double* values_of(int node) const { return at_[static_cast<std::size_t>(node)]; }
   double* adjoints_of(int node) { return adjoints_.data() + static_cast<std::size_t>(node) * stride_; }
 
   const Formula& formula_;
@@ -55,6 +55,8 @@ class Evaluator {
   std::vector<char> marked_inputs_;    // for these marks: which inputs vary
   std::vector<int> marked_derivatives_;  // by which inputs derivatives are taken
   std::vector<double> values_, adjoints_;
+  std::vector<const double*> at_;  // the values of each node: those of an input where they are given
+  std::vector<char> reached_;      // nodes whose adjoints are known so far
 };
 
 }  // namespace arcslip::formula

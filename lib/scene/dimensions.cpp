@@ -14,14 +14,14 @@ using formula::Operation;
 
 constexpr double same_power = 1e-9;
 
-// Powers of kg, m and s; none: any, as that of a plain number. Angles are pure numbers.
-using Dimension = std::optional<std::array<double, 3>>;
+// Powers of kg, m, s and turns; none: any, as that of a plain number. Other angles are pure numbers.
+using Dimension = std::optional<std::array<double, 4>>;
 
 Dimension dimension_of(std::string_view unit) {
   const auto known = unit.empty() ? std::nullopt : unit_of(unit);
   if (!known) return {};
   return std::array{static_cast<double>(known->mass), static_cast<double>(known->length),
-                    static_cast<double>(known->time)};
+                    static_cast<double>(known->time), static_cast<double>(known->turns)};
 }
 
 bool differ(const Dimension& a, const Dimension& b) {
@@ -34,17 +34,19 @@ bool differ(const Dimension& a, const Dimension& b) {
 // Of a^p b^q.
 Dimension product(const Dimension& a, double p, const Dimension& b, double q) {
   if (!a || !b) return {};
-  std::array<double, 3> all{};
+  std::array<double, 4> all{};
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = p * (*a)[i] + q * (*b)[i];
   return all;
 }
 
 std::string text_of(const Dimension& dimension) {
-  std::array<int, 3> whole{};
+  std::array<int, 4> whole{};
   for (std::size_t i = 0; i < whole.size(); ++i) {
     whole[i] = static_cast<int>(std::lround((*dimension)[i]));
     if (std::abs(whole[i] - (*dimension)[i]) > same_power) return "another dimension";
   }
+  if (whole == std::array{0, 0, -1, 1}) return "Hz";
+  if (whole[3] != 0) return "another dimension";
   const std::string unit = coherent_text({whole[0], whole[1], whole[2]});
   return unit == "-" ? "a pure number" : unit;
 }

@@ -142,7 +142,8 @@ void assign(Scene& scene, const Slot& slot, double value, const NumberText* text
       if (text == nullptr || (part.texts.empty() && text->text.empty())) continue;
       part.texts.resize(part.values.size());
       part.texts[slot.field] = *text;
-      if (std::all_of(part.texts.begin(), part.texts.end(), [](const NumberText& t) { return t.text.empty(); }))
+      if (std::all_of(part.texts.begin(), part.texts.end(),
+                      [](const NumberText& t) { return t.text.empty(); }))
         part.texts.clear();
     }
 }
@@ -229,9 +230,9 @@ double value(const Scene& scene, std::string_view parameter) {
 void set(Scene& scene, std::string_view parameter, double value) {
   const Slot slot = slot_of(scene, parameter);
   if (const NumberText* text = slot.text(); text != nullptr && text->follows())
-    throw ParameterError("parameter " + file::quoted(slot.name()) + " is given by the formula " +
-                         file::shown(text->text) +
-                         ", must be set by what it follows: " + file::listed(text->parameters));
+    throw ParameterError(
+        "parameter " + file::quoted(slot.name()) + " is given by the formula " + file::shown(text->text) +
+        ", must be set by what it follows: " + file::listed(independent_parameters(scene, *text)));
   change(scene, slot, value, {});
 }
 
@@ -295,7 +296,8 @@ std::string objection_to(const Scene& scene, const Field& field, const NumberTex
     return shown + why;
   const double value = scene::value(scene, formula);
   if (std::isfinite(value) && file::within(field, value)) return {};
-  return shown + "which is " + file::number_text(value) + ", must be " + file::allowed_text(field);
+  return shown + "which is " + (std::isfinite(value) ? file::number_text(value) : "no finite number") +
+         ", must be " + file::allowed_text(field);
 }
 
 void drop(Study& study, std::string_view parameter) {

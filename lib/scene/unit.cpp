@@ -13,7 +13,7 @@ namespace arcslip::scene {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int highest_power = 9;
+constexpr int highest_power = 64;
 constexpr std::size_t longest_unit = 60;
 
 struct NamedUnit {
@@ -29,10 +29,10 @@ constexpr NamedUnit named_units[] = {
     {"Pa", {.mass = 1, .length = -1, .time = -2}, true},
     {"J", {.mass = 1, .length = 2, .time = -2}, true},
     {"W", {.mass = 1, .length = 2, .time = -3}, true},
-    {"Hz", {.time = -1, .angle = 1, .other = 2 * pi}, true},
+    {"Hz", {.time = -1, .angle = 1, .turns = 1, .other = 2 * pi}, true},
     {"rad", {.angle = 1}, true},
     {"deg", {.angle = 1, .other = pi / 180}, false},
-    {"rpm", {.time = -1, .angle = 1, .other = 2 * pi / 60}, false},
+    {"rpm", {.time = -1, .angle = 1, .turns = 1, .other = 2 * pi / 60}, false},
     {"min", {.time = 1, .other = 60}, false},
     {"t", {.mass = 1, .ten = 3}, false},
     {"%", {.ten = -2}, false},
@@ -55,6 +55,7 @@ void multiply(Unit& all, const Unit& by, int n) {
   all.time += n * by.time;
   all.angle += n * by.angle;
   all.ten += n * by.ten;
+  all.turns += n * by.turns;
   if (by.other != 1) all.other *= std::pow(by.other, n);
 }
 
@@ -174,6 +175,7 @@ std::optional<Unit> unit_of(std::string_view text) {
 }
 
 std::string coherent_text(const Unit& unit) {
+  if (unit.turns == 1 && unit.same_dimension({.time = -1})) return "Hz";
   const Unit plain{unit.mass, unit.length, unit.time, unit.angle};
   if (plain.same_dimension({}) && plain.angle == 0) return "-";
   for (const std::string_view each : coherent_units)
@@ -190,6 +192,16 @@ std::string coherent_text(const Unit& unit) {
   if (above.empty()) above = "1";
   if (below.empty()) return above;
   return above + '/' + (below.find(' ') == std::string::npos ? below : '(' + below + ')');
+}
+
+std::string objection_to_unit(std::string_view text) {
+  const auto unit = unit_of(text);
+  const std::string found = "found the unit \"" + std::string(text) + "\", must be ";
+  if (!unit) return found + "a unit as \"N/m\" or \"N s/m\"";
+  const std::string coherent = coherent_text(*unit);
+  if (unit->ten == 0 && (unit->other == 1 || unit_of(coherent)->other == unit->other)) return {};
+  return found + '"' + coherent + "\", in which formulas take the value; it may be given as \"3 " +
+         std::string(text) + '"';
 }
 
 std::optional<Quantity> split_quantity(std::string_view text) {

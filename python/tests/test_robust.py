@@ -71,7 +71,7 @@ def test_extension_refuses_what_is_not_there(scene: arcslip.Scene) -> None:
     with pytest.raises(ValueError, match="unknown kind"):
         core.with_study("none", None, "{}")
     with pytest.raises(TypeError):
-        core.replace([("c.value", "x")], None, None)  # type: ignore[list-item]
+        core.replace([("c.value", None)], None, None)  # type: ignore[list-item]
     with pytest.raises(TypeError):
         _core.Scene()
 

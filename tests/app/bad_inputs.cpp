@@ -58,7 +58,8 @@ std::vector<BadInput> make() {
       line("an unknown verb", {"fry", "scene.json"},
            "unknown verb \"fry\", must be run, frf, trace, peaks, folds, bifurcations, time, point, modes, "
            "sweep, accuracy, "
-           "optimize, ensemble, merge, reduce, check, new, show, plot, compare, schema, manual or completions; did you mean "
+           "optimize, ensemble, merge, reduce, check, new, show, plot, compare, schema, manual or "
+           "completions; did you mean "
            "frf?"),
       bare("a structure that is not reduced", {"reduce", "bare.json"},
            "the structure is not reduced: give its matrices, its beam or its rod a \"highest_frequency\""),
@@ -84,12 +85,12 @@ std::vector<BadInput> make() {
            "The following arguments were not expected: 3 --harmonic"),
       line("--set without a value", {"frf", "scene.json", "--set", "damper.normal_load"},
            "give it as name.field=value"),
-      line("--set with what is no number", {"frf", "scene.json", "--set", "damper.normal_load=3N"},
-           "found the value \"3N\", must be a finite number"),
+      line("--set with what is no number", {"frf", "scene.json", "--set", "damper.normal_load=3kg"},
+           "found \"3kg\", must be in a unit of the same dimension as N"),
       line("--set to NaN", {"frf", "scene.json", "--set", "damper.normal_load=nan"},
-           "must be a finite number"),
+           "column 1: found the unknown name \"nan\""),
       line("--set to 1e999", {"frf", "scene.json", "--set", "damper.normal_load=1e999"},
-           "must be a finite number"),
+           "found a number beyond the range of doubles"),
       line("--set of an unknown name", {"frf", "scene.json", "--set", "damper.normal_lod=3"},
            "did you mean \"damper.normal_load\"?"),
       line("--set out of bounds", {"frf", "scene.json", "--set", "damper.normal_load=-3"},

@@ -4,6 +4,7 @@
 #include "environment.hpp"
 #include "program.hpp"
 #include "random.hpp"
+#include "size.hpp"
 #include "volume.hpp"
 
 #include <chrono>
@@ -184,7 +185,7 @@ TEST_CASE(
   place.write("scene.json", scene);
   Program program(place, {"ensemble", "scene.json", "--keep", "amplitude,points"}, {}, "", true);
   while (!fs::exists(place / "out/scene.load.sqlite-wal")) std::this_thread::sleep_for(1ms);
-  std::this_thread::sleep_for(1500ms);
+  std::this_thread::sleep_for(test_size::sized(1500ms, 15000ms));  // some hundred samples
   program.send(SIGINT);
   const Ended ended = program.wait();
   CHECK(ended.exit_code == 3);

@@ -122,6 +122,8 @@ std::vector<FormulaParameter> read_parameters(const Reading& reading, int displa
                            "found the unit " + scene::file::shown(*unit) + ", must be a text of 1 to " +
                                std::to_string(longest_unit) + " characters; a pure number stands alone: " +
                                scene::file::quoted(member->key) + ": 0.1");
+      else if (unit)
+        scene::file::check_coherent_unit(*unit, keys.find("unit").pointer, reading.faults);
       parameter.unit = unit.value_or("?");
     }
     parameters.push_back(std::move(parameter));

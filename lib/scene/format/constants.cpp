@@ -13,6 +13,7 @@
 namespace arcslip::scene::file {
 namespace {
 
+constexpr int longest_chain = 100;  // of numbers that follow each other
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view wanted_constant =
     "a number, or an object with the keys \"value\", \"unit\", \"bounds\", \"help\"";
@@ -24,19 +25,11 @@ std::string read_unit(const Keys& keys, const Location& value, Faults& faults) {
     const auto* text = value.node != nullptr ? value.node->get<std::string>() : nullptr;
     const auto quantity = text != nullptr ? split_quantity(*text) : std::nullopt;
     const auto unit = quantity ? unit_of(quantity->unit) : std::nullopt;
-    if (unit && unit->same_dimension({.time = -1}) && unit->angle == 1 && unit->other == unit_of("Hz")->other)
-      return "Hz";
     return unit ? coherent_text(*unit) : "";
   }
   const auto text = read_string(place, "a string, a unit as \"N/m\"", faults);
   if (!text) return "";
-  const auto unit = unit_of(*text);
-  if (!unit)
-    faults.add(place.pointer, "found the unknown unit " + shown(*text) + ", must be a unit as \"N/m\"");
-  else if (unit->ten != 0 || (unit->other != 1 && *text != "Hz"))
-    faults.add(place.pointer, "found the unit " + shown(*text) + ", must be " +
-                                  file::quoted(coherent_text(*unit)) +
-                                  ", in which formulas take the value; it may be given as \"0.2 mm\"");
+  check_coherent_unit(*text, place.pointer, faults);
   return *text;
 }
 
@@ -50,11 +43,14 @@ void read_bounds(const Location& place, const Field& field, Constant& constant, 
   }
   const auto lower = read_number({&list->front(), child(place.pointer, std::size_t{0})}, field, faults);
   const auto upper = read_number({&list->back(), child(place.pointer, std::size_t{1})}, field, faults);
-  constant.lower = lower.value_or(constant.lower);
-  constant.upper = upper.value_or(constant.upper);
-  if (lower && upper && !(*lower < *upper))
+  if (!lower || !upper) return;
+  if (*lower < *upper) {
+    constant.lower = *lower;
+    constant.upper = *upper;
+  } else {
     faults.add(place.pointer, "found " + number_text(*upper) + ", must be above the lower bound, which is " +
                                   number_text(*lower));
+  }
 }
 
 Constant read_constant(const std::string& name, const Location& place, Faults& faults) {
@@ -78,6 +74,8 @@ Constant read_constant(const std::string& name, const Location& place, Faults& f
   if (const auto given = read_given_number(value, field, faults)) {
     constant.value = given->follows ? unknown : given->value;
     constant.text.text = given->text;
+  } else {
+    constant.value = unknown;
   }
   return constant;
 }
@@ -166,15 +164,32 @@ class Resolver {
     if (faults_ != nullptr) faults_->add(place.pointer, message);
   }
 
+  // How many formulas stand behind a number that is known, its own included.
+  int chain_of(const std::string& name) {
+    if (const auto known = chains_.find(name); known != chains_.end()) return known->second;
+    int chain = 0;
+    if (const NumberText* formula = parameter_formula(scene_, name))
+      for (const std::string& parameter : formula->parameters)
+        chain = std::max(chain, 1 + chain_of(parameter));
+    chains_.emplace(name, chain);
+    return chain;
+  }
+
+  bool add_chain_fault(const Place& place) {
+    fault(place, "found " + shown(place.text().text) + ", which ends a chain of more than " +
+                     std::to_string(longest_chain) +
+                     " formulas that follow each other, must be a shorter one");
+    return false;
+  }
+
   bool resolve(const std::string& name) {
     State& state = states_.at(name);
     const Place& place = places_.at(name);
     if (state == State::active) {
-      path_.push_back(name);
-      fault(place, "found " + shown(place.text().text) + ", which follows itself: " +
-                       listed(std::span(path_).subspan(static_cast<std::size_t>(
-                           std::find(path_.begin(), path_.end(), name) - path_.begin()))));
-      path_.pop_back();
+      std::string circle;
+      for (auto at = std::find(path_.begin(), path_.end(), name); at != path_.end(); ++at)
+        circle += shown(*at) + " -> ";
+      fault(place, "found " + shown(place.text().text) + ", which follows itself: " + circle + shown(name));
       return false;
     }
     if (state != State::waiting) return state == State::done;
@@ -183,7 +198,6 @@ class Resolver {
     const bool done = set(name, place);
     path_.pop_back();
     states_.at(name) = done ? State::done : State::failed;
-    if (!done && faults_ != nullptr) place.value() = 1;  // nothing else is checked
     return done;
   }
 
@@ -199,12 +213,18 @@ class Resolver {
         add_formula_fault(error, place.pointer, parameter_names(scene_), *faults_);
       return false;
     }
-    for (const std::string& parameter : read.parameters)
+    if (path_.size() > longest_chain) return add_chain_fault(place);
+    int chain = 0;
+    for (const std::string& parameter : read.parameters) {
       if (states_.contains(parameter) && !resolve(parameter)) return false;
+      chain = std::max(chain, chain_of(parameter));
+      if (std::isnan(scene::value(scene_, parameter))) return false;  // which has a fault of its own
+    }
     if (const std::string why = objection_to(scene_, parameter_field(scene_, name), read); !why.empty()) {
       fault(place, why);
       return false;
     }
+    if (chain >= longest_chain) return add_chain_fault(place);
     place.value() = scene::value(scene_, read);
     place.text() = std::move(read);
     return true;
@@ -215,6 +235,7 @@ class Resolver {
   Faults* faults_;
   std::unordered_map<std::string, Place> places_;
   std::unordered_map<std::string, State> states_;
+  std::unordered_map<std::string, int> chains_;
   std::vector<std::string> path_;
 };
 
@@ -256,7 +277,7 @@ std::string objection_to_tie(const Scene& scene, const std::vector<std::string>&
     if (const NumberText* formula = parameter_formula(scene, member))
       return "found " + member + ", which is given by the formula " + shown(formula->text) +
              ", must not be tied as well";
-    if (const double own = value(scene, member); own != common)
+    if (const double own = value(scene, member); own != common && !std::isnan(own) && !std::isnan(common))
       return "found " + member + " = " + number_text(own) + " and " + members.front() + " = " +
              number_text(common) + ", must have one common value";
   }

@@ -50,7 +50,8 @@ class RowsFile {
     const Field bounds = bounds_of(name, place_.pointer, reading_.parameters, reading_.faults);
     is_taken(name, place_.pointer, taken_, reading_.faults);
     is_faulty_ = is_faulty_ || reading_.faults.count() > before;
-    if (bracket != std::string_view::npos && !bounds.unit.empty() && title.substr(bracket) != " (" + std::string(bounds.unit) + ")")
+    if (bracket != std::string_view::npos && !bounds.unit.empty() &&
+        title.substr(bracket) != " (" + std::string(bounds.unit) + ")")
       fault("found the title " + shown(title) + ", must be " +
             shown(name + " (" + std::string(bounds.unit) + ")") + ": numbers have the units of the scene");
     if (std::any_of(lists_.begin(), lists_.end(), [&](const auto& list) { return list.first == name; }))

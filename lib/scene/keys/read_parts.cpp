@@ -141,12 +141,16 @@ Part read_part(const Location& place, const PartType* section_type, std::span<co
   return part;
 }
 
+// Of a formula until resolve_formulas(), and of a number with a fault.
+constexpr double unknown_number = std::numeric_limits<double>::quiet_NaN();
+
 }  // namespace
 
 void read_value(const Location& place, const Field& field, Part& part, Faults& faults) {
-  GivenNumber given{field.default_value.value_or(0)};
-  if (const auto read = read_given_number(place, field, faults)) given = *read;
-  part.values.push_back(given.follows ? std::numeric_limits<double>::quiet_NaN() : given.value);
+  GivenNumber given{field.default_value.value_or(unknown_number)};
+  if (place.node != nullptr)
+    given = read_given_number(place, field, faults).value_or(GivenNumber{unknown_number});
+  part.values.push_back(given.follows ? unknown_number : given.value);
   if (given.text.empty()) return;
   part.texts.resize(part.fields().size());
   part.texts[part.values.size() - 1].text = given.text;

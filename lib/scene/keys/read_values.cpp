@@ -104,6 +104,10 @@ std::optional<double> read_quantity(const Quantity& quantity, const Unit& unit, 
 
 }  // namespace
 
+void check_coherent_unit(const std::string& unit, const std::string& pointer, Faults& faults) {
+  if (const std::string why = objection_to_unit(unit); !why.empty()) faults.add(pointer, why);
+}
+
 void add_formula_fault(const formula::FormulaError& error, const std::string& pointer,
                        std::vector<std::string> names, Faults& faults) {
   const formula::FormulaFault& fault = error.fault();

@@ -70,6 +70,8 @@ struct GivenNumber {
 };
 /// A fault and nothing if the number is absent or invalid.
 std::optional<GivenNumber> read_given_number(const Location& place, const Field& bounds, Faults& faults);
+/// A fault where a text is no unit in which formulas take a value.
+void check_coherent_unit(const std::string& unit, const std::string& pointer, Faults& faults);
 /// A fault of a formula; names: what it may name.
 void add_formula_fault(const formula::FormulaError& error, const std::string& pointer,
                        std::vector<std::string> names, Faults& faults);

@@ -66,10 +66,10 @@ std::vector<std::string> known_parameters(const Parameters& all) {
   return known;
 }
 
-void add_follower_fault(const std::string& parameter, const NumberText& formula, const std::string& pointer,
-                        Faults& faults) {
+void add_follower_fault(const Scene& scene, const std::string& parameter, const NumberText& formula,
+                        const std::string& pointer, Faults& faults) {
   faults.add(pointer, "found " + shown(parameter) + ", which is given by the formula " + shown(formula.text) +
-                          "; must be what that follows: " + listed(formula.parameters));
+                          "; must be what that follows: " + listed(independent_parameters(scene, formula)));
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ std::optional<Field> field_of(std::string& parameter, const std::string& pointer
   }
   if (parameter_of(all.scene, parameter).empty()) return *field;  // of a part with a fault
   if (const NumberText* formula = parameter_formula(all.scene, parameter)) {
-    add_follower_fault(parameter, *formula, pointer, faults);
+    add_follower_fault(all.scene, parameter, *formula, pointer, faults);
     return {};
   }
   return is_constant ? parameter_field(all.scene, parameter) : *field;
@@ -117,6 +117,8 @@ std::optional<double> read_followed_number(const Location& place, const Field& f
   if (all.texts == nullptr) return read_number(place, field, faults);  // which says so
   try {
     NumberText formula = read_formula(all.scene, given->text);
+    if (std::isnan(value(all.scene, formula)) && faults.count() > 0)
+      return {};  // it follows what has a fault
     if (const std::string why = objection_to(all.scene, field, formula); !why.empty()) {
       faults.add(place.pointer, why);
       return {};

@@ -40,6 +40,10 @@ TEST_CASE("a file of results is shown as tables, with its units, ends and doubts
   CHECK(has(shown.out, "frequency (Hz)"));
   CHECK(has(shown.out, "amplitude (mm)"));
   CHECK(has(shown.out, std::to_string(1000 * peak["amplitude"].get<double>()).substr(0, 7)));
+  const Ended none = run(place, {"show", "a.json", "--events", "none"});
+  CHECK(none.exit_code == 0);
+  CHECK(none.out.find("peak") == std::string::npos);
+  CHECK(run(place, {"show", "a.json", "--events", "peak"}).out == shown.out);
   const Ended chosen = run(place, {"show", "a.json", "--columns", "amplitude,damper.stick_percent"});
   CHECK(has(chosen.out, "amplitude (mm)  damper.stick_percent (%)    branch"));
   CHECK_FALSE(has(chosen.out, "frequency"));

@@ -19,7 +19,7 @@ scene::Scene with_formulas() {
   return scenes::parse(R"x({"format": "arcslip-scene-2", "frequency_unit": "rad/s",
     "constants": {"s": 0.7, "t": {"value": 1.3, "unit": "m"}, "both": "s^2*exp(0.3*t)"},
     "structure": {"dofs": ["a", "b"],
-      "masses": [{"name": "ma", "at": "a", "value": "1 + s^2"}, {"name": "mb", "at": "b", "value": "exp(s)"}],
+      "masses": [{"name": "ma", "at": "a", "value": "1 + s^2"}, {"name": "mb", "at": "b", "value": "1*exp(s)"}],
       "springs": [{"name": "ka", "at": "a", "value": "2*both"}, {"name": "kb", "between": ["a", "b"], "value": 3}],
       "dampers": [{"name": "c", "at": "a", "value": "0.1*sqrt(ka*ma)"}],
       "damping": [{"name": "rayleigh", "type": "rayleigh", "alpha": "0.02*s", "beta": "0.01*both"}]},
@@ -58,10 +58,10 @@ TEST_CASE("derivatives of the residual by a parameter go through all formulas") 
       REQUIRE(evaluator->move_to(u, moved, Needs::residual) == continuation::Evaluated::ok);
       return VectorXd(evaluator->residual());
     };
-    const double h = 1e-3;  // fourth order
+    const double h = 1e-5;  // fourth order; events of the friction element do not change within it
     const VectorXd difference = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
     CHECK(length(by) > 0.1);
-    CHECK(length(by - difference) < 1e-9 * length(by));
+    CHECK(length(by - difference) < 1e-8 * length(by));
   }
 }
 

@@ -75,6 +75,8 @@ TEST_CASE("what is no number with that unit") {
   CHECK(coherent_text(*unit_of("kN/mm")) == "N/m");
   CHECK(coherent_text(*unit_of("kg^2 m/s^4")) == "kg^2 m/s^4");
   CHECK(coherent_text(*unit_of("%")) == "-");
+  CHECK(coherent_text(*unit_of("rpm")) == "Hz");
+  CHECK(coherent_text(*unit_of("deg/s")) == "rad/s");
 }
 
 TEST_CASE("formulas give numbers in the order in which they follow each other") {
@@ -208,6 +210,34 @@ TEST_CASE("dimensions of formulas, as far as they are known") {
   CHECK(fault("sqrt(m)", "m") == "which is another dimension, must be m");
 }
 
+TEST_CASE("turns and radians are kept apart where formulas give frequencies") {
+  const auto with = [](const std::string& f0, const std::string& from) {
+    std::string text = oscillator();
+    text.replace(text.find("\"47 Hz\""), 7, '"' + f0 + '"');
+    return text.replace(text.find("\"30 Hz\""), 7, '"' + from + '"');
+  };
+  CHECK(value(read_text(with("2820 rpm", "30 Hz")), "f0") == Approx(47).epsilon(1e-15));
+  CHECK_NOTHROW(read_text(with("47 Hz", "f0")));
+  CHECK_THROWS_WITH(read_text(with("47 rad/s", "f0")), Catch::Matchers::Contains("which is 1/s, must be Hz"));
+  CHECK_THROWS_WITH(read_text(with("47 Hz", "sqrt(k/m)")),
+                    Catch::Matchers::Contains("which is 1/s, must be Hz"));
+}
+
+TEST_CASE("what follows a number with a fault has no fault of its own") {
+  for (const auto& [wrong, pointer] :
+       {std::pair{"\"800 N\"", "/structure/masses/0/value"}, {"-1", "/structure/masses/0/value"}}) {
+    std::string text = oscillator();
+    text.replace(text.find("\"800 g\""), 7, wrong);
+    try {
+      read_text(text);
+      FAIL("a fault is there");
+    } catch (const SceneError& error) {
+      REQUIRE(error.faults().size() == 1);
+      CHECK(error.faults()[0].pointer == pointer);
+    }
+  }
+}
+
 TEST_CASE("a chain of formulas is short where it branches") {
   std::string more;
   for (int i = 0; i < 60; ++i) {  // written out 2^60 terms
@@ -218,6 +248,26 @@ TEST_CASE("a chain of formulas is short where it branches") {
   CHECK(value(scene, "a59") == Approx(0.12));
   set(scene, "ratio", 0.2);
   CHECK(value(scene, "a59") == Approx(0.2));
+}
+
+TEST_CASE("a chain of more than a hundred formulas is refused, in either order") {
+  const auto chain = [](int length, bool backward) {
+    std::string more;
+    for (int k = 0; k < length; ++k) {
+      const int i = backward ? length - 1 - k : k;
+      more += ", \"a" + std::to_string(i) + "\": \"" + (i == 0 ? "ratio" : "a" + std::to_string(i - 1)) +
+              " + 1\"";
+    }
+    return oscillator(more);
+  };
+  for (const bool backward : {false, true}) {
+    CAPTURE(backward);
+    CHECK(value(read_text(chain(100, backward)), "a99") == Approx(100.12));
+    CHECK_THROWS_WITH(read_text(chain(101, backward)),
+                      Catch::Matchers::Contains("a chain of more than 100 formulas"));
+    CHECK_THROWS_WITH(read_text(chain(20000, backward)),
+                      Catch::Matchers::Contains("a chain of more than 100 formulas"));
+  }
 }
 
 TEST_CASE("numbers of studies follow parameters that the study does not change") {

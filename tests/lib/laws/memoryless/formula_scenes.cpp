@@ -110,7 +110,7 @@ TEST_CASE("faults of formulas have the column and what is meant") {
         "name\n");
   CHECK(faults(own_force("q", R"({"a b": 1})")).find("must have letters, digits and _ alone") !=
         std::string::npos);
-  CHECK(faults(own_force("k*q", R"({"k": "x"})")).find("/elements/0/parameters/k: found \"x\" (a string)") ==
+  CHECK(faults(own_force("k*q", R"({"k": "x"})")).find("/elements/0/parameters/k: column 1: found the unknown name \"x\"") ==
         0);
   CHECK(faults(own_force("k*q", R"({"k": {"value": 1}})")).find("/elements/0/parameters/k") == 0);
   CHECK(

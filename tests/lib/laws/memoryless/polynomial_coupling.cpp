@@ -151,7 +151,7 @@ TEST_CASE("a potential that cannot be is reported where it stands") {
         {R"([{"powers": {"x": 2}, "value": 1}])",
          "/elements/0/potential/0/powers/x: found \"x\", must be one of the degrees of freedom"},
         {R"([{"powers": {"type": 2}, "value": 1}])", "which is a key of the element"},
-        {R"([{"powers": {"a": 2}, "value": "b"}])", "/elements/0/potential/0/value: found \"b\""},
+        {R"([{"powers": {"a": 2}, "value": "b"}])", "/elements/0/potential/0/value: column 1: found the unknown name \"b\""},
         {R"([{"powers": {"a": 2}, "value": 1}], "d": {"at": "a"})",
          "/elements/0/d: found the unknown key \"d\""},
         {R"([{"powers": {"a": 2}, "value": 1}], "at": "a")", "/elements/0/at: found the unknown key \"at\""},

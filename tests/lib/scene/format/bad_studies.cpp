@@ -171,8 +171,8 @@ void add_samples(std::vector<BadScene>& rows) {
           "\"truncated_normal\"; did you mean \"uniform\"?");
   add_one("distribution with too few numbers", "{\"normal\": [1]}", "/normal",
           "found a list of 1, must be a list of 2 numbers: mean, standard deviation");
-  add_one("distribution of texts", "{\"uniform\": [1, \"2\"]}", "/uniform/1",
-          "found \"2\" (a string), must be");
+  add_one("distribution of texts", "{\"uniform\": [1, true]}", "/uniform/1",
+          "found true, must be");
   add_one("standard deviation of zero", "{\"normal\": [1, 0]}", "/normal/1",
           "found 0, must be above 0: it is the standard deviation");
   add_one("lognormal distribution about zero", "{\"lognormal\": [0, 1]}", "/lognormal/0",
