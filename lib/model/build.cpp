@@ -275,4 +275,12 @@ Model build(const scene::Scene& scene, const control::Control& control) {
   return Builder(scene, control).build();
 }
 
+Model in_harmonics(Model model, const elements::Harmonics& harmonics) {
+  model.settings.samples = model.settings.samples / model.harmonics.period * harmonics.period;
+  model.settings.order = harmonics.order;
+  model.settings.period = harmonics.period;
+  model.harmonics = harmonics;
+  return model;
+}
+
 }  // namespace arcslip::model

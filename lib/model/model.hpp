@@ -221,6 +221,9 @@ struct Model {
 /// control::Interrupted.
 Model build(const scene::Scene& scene, const control::Control& control = {});
 
+/// The model in other harmonics of the same excitation; friction has as many samples in a period of it.
+Model in_harmonics(Model model, const elements::Harmonics& harmonics);
+
 /// Index of a parameter. Throws scene::ParameterError; also for a number that follows others.
 int parameter_index(const Model& model, const std::string& name);
 

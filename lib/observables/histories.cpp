@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace arcslip::observables {
 namespace {
@@ -57,9 +58,12 @@ ElementHistory element_history(const hbm::HbmProblem& problem, const hbm::HbmEva
 
 History history(const scene::Scene& scene, const ResponseBranch& branch, const ResponsePoint& point,
                 std::span<const double> angles) {
-  const auto model = std::make_shared<const model::Model>(model::build(scene_at(scene, branch, point)));
-  const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
   if (point.unbounded) throw std::invalid_argument("an unbounded response has no history");
+  model::Model built = model::build(scene_at(scene, branch, point));
+  if (!branch.harmonics.empty() && harmonics_of(branch) != built.harmonics)  // of another period, or order
+    built = model::in_harmonics(std::move(built), harmonics_of(branch));
+  const auto model = std::make_shared<const model::Model>(std::move(built));
+  const hbm::HbmProblem problem(model, model->harmonics, 1, 1);
   if (static_cast<int>(point.unknowns.size()) != problem.size())
     throw std::invalid_argument("a point with " + std::to_string(point.unknowns.size()) +
                                 " unknowns does not belong to this scene, which has " +
@@ -81,6 +85,10 @@ History history(const scene::Scene& scene, const ResponseBranch& branch, const R
   for (std::size_t e = 0; e < at->element_count(); ++e)
     result.elements.push_back(element_history(problem, *at, p, e, angles));
   return result;
+}
+
+elements::Harmonics harmonics_of(const ResponseBranch& branch) {
+  return {branch.harmonics.back(), branch.harmonics.front() > 0, branch.period};
 }
 
 std::vector<double> even_angles(int count) {

@@ -1,6 +1,7 @@
 #pragma once
 // The motion and the forces over one period at a point of a branch.
 
+#include <arcslip/fourier/harmonics.hpp>
 #include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -35,11 +36,14 @@ struct History {
   std::vector<ElementHistory> elements;
 };
 
-/// The history at a point or an event of a branch of this scene, at the given angles. `force` is that of the
-/// exact law even if the scene samples it. Throws std::invalid_argument if the point is unbounded or does not
-/// belong to that scene.
+/// The history at a point or an event of a branch of this scene, or at a point of its own with an empty
+/// branch, at the given angles. `force` is that of the exact law even if the scene samples it. Throws
+/// std::invalid_argument if the point is unbounded, has no unknowns or does not belong to that scene.
 History history(const scene::Scene& scene, const ResponseBranch& branch, const ResponsePoint& point,
                 std::span<const double> angles);
+
+/// The harmonics of a branch that has some.
+elements::Harmonics harmonics_of(const ResponseBranch& branch);
 
 /// `count` equally spaced angles from 0, without 2 pi.
 std::vector<double> even_angles(int count);

@@ -14,6 +14,7 @@
 #include <arcslip/results/value.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <variant>
@@ -104,6 +105,16 @@ struct Head {
   int parent = 0;  // the result it continues, counted backwards in its list; 0: none
 };
 
+/// A table with its rows.
+struct TableRows {
+  Table table;
+  Rows rows;
+};
+
+/// The motion over a period at a row of one of the tables of a result, with so many instants besides those at
+/// which contacts change.
+using MotionAt = std::function<TableRows(std::size_t table, std::size_t row, int steps)>;
+
 /// How it ended, with its facts.
 struct End {
   Status status = Status::complete;
@@ -112,6 +123,7 @@ struct End {
   std::string doubt{};   // why a complete result is less accurate than it seems; empty: it is not
   std::string text{};    // for people, lines
   std::string remark{};  // for people, about a result that stands in a table
+  MotionAt motion{};     // if it was asked for, and motions have harmonics; no file has it
 };
 
 /// Receives results: begin, then curve, rows and end for each result, and finish. Belongs to one thread. An

@@ -9,6 +9,7 @@
 #include <arcslip/studies/catalogue.hpp>
 #include <arcslip/studies/presentation/columns.hpp>
 #include <arcslip/studies/presentation/figures.hpp>
+#include <arcslip/studies/presentation/histories.hpp>
 #include <arcslip/studies/stability_keys.hpp>
 
 #include <array>
@@ -34,63 +35,6 @@ scene::file::KeysOf<PointSettings> keys_of_point() {
                              "range of the amplitude over all possible positions"));
   add_stability_keys(keys, stability_of_points_help);
   return keys;
-}
-
-std::span<const std::string_view> direction_names(const scene::Part& element) {
-  return element.type->slots_with(element.options);
-}
-
-/// One instant of a history.
-struct PointInstant {
-  const observables::History* history;
-  std::size_t i;
-};
-
-results::TableOf<PointInstant> point_history(const scene::Scene& scene) {
-  using observables::ElementHistory;
-  results::TableOf<PointInstant> table;
-  const std::vector<scene::Part> elements = scene::all_elements(scene);
-  table.add({"time"}, "s", "of the period",
-            [](const PointInstant& at) { return at.history->angle[at.i] / at.history->base_frequency; });
-  table.add({"angle"}, "rad", "base frequency times the time",
-            [](const PointInstant& at) { return at.history->angle[at.i]; });
-  table.add({"displacement"}, "m", "of the response",
-            [](const PointInstant& at) { return at.history->displacement[at.i]; });
-  table.add({"velocity"}, "m/s", "of the response",
-            [](const PointInstant& at) { return at.history->velocity[at.i]; });
-  const auto add = [&](std::size_t e, const char* key, const char* unit, const char* help,
-                       std::vector<double> ElementHistory::*member) {
-    table.add({"elements", elements[e].name, key}, unit, help,
-              [e, member](const PointInstant& at) { return (at.history->elements[e].*member)[at.i]; });
-  };
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (!elements[e].detailed) continue;
-    add(e, "displacement", "m", "of the element", &ElementHistory::displacement);
-    add(e, "velocity", "m/s", "of the element", &ElementHistory::velocity);
-    add(e, "force", "N", "of the law, against the motion", &ElementHistory::force);
-    add(e, "series", "N", "the same as the truncated Fourier series", &ElementHistory::series);
-    const auto names = direction_names(elements[e]);
-    for (std::size_t i = 1; i < names.size(); ++i) {
-      const auto add_further = [&](const char* key, const char* unit, const char* help,
-                                   std::vector<double> observables::DirectionHistory::*member) {
-        table.add({"elements", elements[e].name, "directions", std::string(names[i]), key}, unit, help,
-                  [e, i, member](const PointInstant& at) {
-                    return (at.history->elements[e].further[i - 1].*member)[at.i];
-                  });
-      };
-      add_further("displacement", "m", "along a further direction",
-                  &observables::DirectionHistory::displacement);
-      add_further("force", "N", "along a further direction", &observables::DirectionHistory::force);
-    }
-  }
-  return table;
-}
-
-std::vector<PointInstant> instants(const PointResponse& response, const RunOptions& options) {
-  std::vector<PointInstant> all;
-  for (std::size_t i = 0; options.points && i < response.history.angle.size(); ++i)
-    all.push_back({&response.history, i});
-  return all;
 }
 
 std::string point_doubt(const PointResponse& response) {
@@ -120,7 +64,7 @@ results::Object point_facts(const scene::Scene& scene, const PointResponse& resp
 
 Described<PointResponse> described_point(const scene::Scene& scene, const PointSettings& settings,
                                          const RunOptions& options) {
-  const auto table = std::make_shared<const results::TableOf<PointInstant>>(point_history(scene));
+  const auto table = std::make_shared<const results::TableOf<Instant>>(history_table(scene));
   std::vector<results::Shown> shown{
       {results::with_unit("frequency", scene::unit_name(scene.frequency_unit)), {"frequency"}, "%.8f"},
       {.title = "A_max",
@@ -143,14 +87,15 @@ Described<PointResponse> described_point(const scene::Scene& scene, const PointS
                          .shown = std::move(shown)};
   return {std::move(schema),
           [&scene, table, options, stability = settings.stability](const PointResponse& response) {
-            return results::Result{.schema = 0,
-                                   .head = {response.study,
-                                            response.kind,
-                                            named(scene, response.set),
-                                            {{"parameters", named(scene, response.parameters)}}},
-                                   .tables = {table->rows(instants(response, options))},
-                                   .end = {response.status, stop(response.stop),
-                                           point_facts(scene, response, stability), point_doubt(response)}};
+            return results::Result{
+                .schema = 0,
+                .head = {response.study,
+                         response.kind,
+                         named(scene, response.set),
+                         {{"parameters", named(scene, response.parameters)}}},
+                .tables = {table->rows(options.points ? instants(response.history) : std::vector<Instant>())},
+                .end = {response.status, stop(response.stop), point_facts(scene, response, stability),
+                        point_doubt(response)}};
           }};
 }
 

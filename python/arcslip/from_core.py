@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 from . import _core
@@ -13,16 +14,21 @@ from .results import Results, link
 from .tables import Table, as_array, packed
 
 
-def _table(core: _core.Results, i: int, t: int, schema: Mapping[str, Any], count: int) -> Table:
+def _table(schema: Mapping[str, Any], count: int, column: Callable[[int], Any]) -> Table:
     columns = schema["columns"]
     names = [".".join(column["path"]) for column in columns]
     units = {name: column["unit"] for name, column in zip(names, columns, strict=True) if column["unit"]}
 
     def load(c: int) -> Any:
-        values = core.column(i, t, c)
+        values = column(c)
         return as_array([] if values is None else values, columns[c]["type"])
 
     return Table(names, count, load, units)
+
+
+def _history(core: _core.Results, i: int, table: int, row: int, steps: int) -> Table | None:
+    record = core.motion(i, table, row, steps)
+    return None if record is None else _table(record.schema(), len(record), record.column)
 
 
 def from_core(core: _core.Results, labels: Mapping[str, str]) -> Results:
@@ -35,10 +41,11 @@ def from_core(core: _core.Results, labels: Mapping[str, str]) -> Results:
         about["noun"] = schema["noun"]
         about["facts"] = packed(about["facts"])
         tables = {
-            table["key"]: _table(core, i, t, table, count)
+            table["key"]: _table(table, count, partial(core.column, i, t))
             for t, (table, count) in enumerate(zip(schema["tables"], core.counts(i), strict=True))
         }
         results.append(result(about, tables, labels))
+        results[-1]._history = partial(_history, core, i)
         lists.append(schema["list"])
         parents.append(about["parent"])
     link(results, lists, parents)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .tables import Table
+from .tables import Row, Table
 
 if TYPE_CHECKING:
     from .results import Result
@@ -65,26 +65,48 @@ class Motion(Table):
         return Motion, (self[:], self.period)
 
 
-def motion_of(result: Result, of: Any) -> Motion:
-    """Return the motion of a result over one of the periods of its history.
+def motion_of(result: Result, of: Any, steps: int | None) -> Motion:
+    """Return the motion of a result, at a row of a branch or over a period of a history.
 
     Raises
     ------
     ValueError
-        If the result has no history.
+        If the result has no motions, or if the row is that of another result.
     TypeError
-        If `of` is a row.
+        If `of` is neither an index nor a row of a branch.
     IndexError
-        If the history has no such period.
+        If there is no such point, or if the history has no such period.
     """
     history = result.tables.get("history")
     if history is None:
-        raise ValueError(
-            f"found a {result.noun} of kind {result.kind!r}, whose points and events have no histories;"
-            " scene.point(frequency=...) and scene.time(frequency=...) have them"
-        )
+        return _at_row(result, of, 1000 if steps is None else steps)
+    if steps is not None:
+        raise ValueError(f"found steps={steps}, must be given to the study of kind {result.kind!r}")
     if len(history) == 0:
         raise ValueError(f"the {result.noun} has no history: {result.stop.get('message', result.status)}")
+    return _of_period(result, history, of)
+
+
+def _at_row(result: Result, of: Any, steps: int) -> Motion:
+    if isinstance(of, Row):
+        table, row = of._place()
+    else:
+        table, row = result.main, range(len(result.main))[operator.index(of)]
+    names = [name for name, each in result.tables.items() if each is table]
+    if not names:
+        raise ValueError(f"found a row that is not of this {result.noun}")
+    if steps < 1:
+        raise ValueError(f"found steps={steps}, must be at least 1")
+    history = result._history(list(result.tables).index(names[0]), row, steps) if result._history else None
+    if history is None:
+        raise ValueError(
+            f"found a {result.noun} of kind {result.kind!r} without motions: those of branches by harmonic balance are kept,"
+            " until they are saved or pickled; scene.point(frequency=...) and scene.time(frequency=...) compute others"
+        )
+    return Motion(history, float(history["time"][-1]))
+
+
+def _of_period(result: Result, history: Table, of: Any) -> Motion:
     time = history["time"]
     period = result.facts["period"] * math.tau / result.facts["omega"]
     count = max(1, round((time[-1] - time[0]) / period))

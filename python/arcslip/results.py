@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
 from . import _core
@@ -66,6 +66,11 @@ class Result(Named):
         self.facts: dict[str, Any] = about["facts"]
         self.set_units: dict[str, str] = about["set_units"]
         self._labels = labels
+        #: The history at a row of a table, (table, row, steps); None where it was not kept.
+        self._history: Callable[[int, int, int], Table | None] | None = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self.__dict__ | {"_history": None}
 
     @property
     def tables(self) -> dict[str, Table]:
@@ -102,16 +107,17 @@ class Result(Named):
         """Return the number of rows of the main table."""
         return len(self.main)
 
-    def motion(self, of: int | Row = 0, /) -> Motion:
+    def motion(self, of: int | Row = 0, /, *, steps: int | None = None) -> Motion:
         """Return the motion over a period, with the forces and loops of the elements.
-
-        Studies of the kinds "point" and "time" record it.
 
         Parameters
         ----------
-        of : int
-            The period, of several that were recorded; -1 is the last one. The rows of branches, their points and events, have
-            no motion: ``scene.point(frequency=event.frequency)`` computes that of the responses at a frequency.
+        of : int or Row
+            Of a branch or a mode a point, by its index, or an event, a row of `events`. Of a result of the kinds "point" and
+            "time" the period, of several that were recorded. -1 is the last one.
+        steps : int, optional
+            Of a branch the number of instants, besides those at which contacts begin to slip or to stick; by default 1000.
+            The study of other results has it.
 
         Returns
         -------
@@ -123,19 +129,20 @@ class Result(Named):
         Raises
         ------
         ValueError
-            If the result has no history.
+            If the result has no motions: of branches by shooting, of sweeps and optima, at an amplitude without bounds, and
+            of results that were loaded or unpickled.
         IndexError
-            If the history has no such period.
+            If there is no such point, or no such period.
 
         Examples
         --------
-        >>> response, = arcslip.Scene("examples/duffing_jenkins/scene.json").point(frequency=1.0)
-        >>> motion = response.motion()
+        >>> branch, = arcslip.Scene("examples/duffing_jenkins/scene.json").frf(for_each={})
+        >>> motion = branch.motion(branch.events["peak"][0])
         >>> displacement, force = motion.loops["damper"]
         >>> displacement.shape == force.shape == motion.time.shape
         True
         """
-        return motion_of(self, of)
+        return motion_of(self, of, steps)
 
     def to_dataframe(self, table: str | None = None) -> pandas.DataFrame:
         """Return a table as a data frame of pandas, as `Table.to_dataframe` does.

@@ -39,6 +39,10 @@ class Row(Named):
     def _names(self) -> list[str]:
         return self._table.heads()
 
+    def _place(self) -> tuple[Table, int]:
+        """Return the table that the row was taken from, and its index in it."""
+        return self._table._place(self._index)
+
     def to_dict(self) -> dict[str, Any]:
         """Return all values by the names of their columns."""
         return {name: self[name] for name in self._table.columns}
@@ -73,6 +77,7 @@ class Table(Named, Sequence[Row]):
         self._load = load
         self._loaded: dict[str, NDArray[Any]] = {}
         self._units = units or {}
+        self._origin: tuple[Table, NDArray[np.intp]] | None = None  # the table that these rows are some of
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -156,7 +161,16 @@ class Table(Named, Sequence[Row]):
 
     def _some(self, rows: slice | NDArray[np.intp]) -> Table:
         names = self.columns
-        return Table(names, len(np.arange(self._count)[rows]), lambda i: self._by_name(names[i])[rows], self._units)
+        taken = np.arange(self._count)[rows]
+        some = Table(names, len(taken), lambda i: self._by_name(names[i])[rows], self._units)
+        table, before = self._origin or (self, np.arange(self._count))
+        some._origin = table, before[rows]
+        return some
+
+    def _place(self, index: int) -> tuple[Table, int]:
+        """Return the table that these rows were taken from, and the index of a row in it."""
+        table, rows = self._origin or (self, np.arange(self._count))
+        return table, int(rows[index])
 
     def __reduce__(self) -> Any:
         return _restored, (self.columns, self._count, [self[name] for name in self.columns], self._units)

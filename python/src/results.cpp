@@ -40,16 +40,18 @@ nb::dict described(const results::Column& column) {
   return all;
 }
 
+nb::dict described(const results::Table& table) {
+  nb::list columns;
+  for (const results::Column& column : table.columns) columns.append(described(column));
+  nb::dict all;
+  all["key"] = table.key;
+  all["columns"] = columns;
+  return all;
+}
+
 nb::dict described(const results::Schema& schema) {
   nb::list tables;
-  for (const results::Table& table : schema.tables) {
-    nb::list columns;
-    for (const results::Column& column : table.columns) columns.append(described(column));
-    nb::dict each;
-    each["key"] = table.key;
-    each["columns"] = columns;
-    tables.append(each);
-  }
+  for (const results::Table& table : schema.tables) tables.append(described(table));
   nb::dict all;
   all["format"] = schema.format;
   all["list"] = schema.list;
@@ -108,6 +110,18 @@ nb::object column(nb::handle_t<Results> self, std::size_t i, std::size_t table, 
   return rows.columns.empty() ? nb::none() : as_column(rows.columns.at(column), self);
 }
 
+/// The motion at a row of a table of a branch; None where it was not kept.
+nb::object motion(const Results& results, std::size_t i, std::size_t table, std::size_t row, int steps) {
+  const results::MotionAt& at = results.results.at(i).end.motion;
+  if (!at) return nb::none();
+  std::optional<results::TableRows> found;
+  {
+    const nb::gil_scoped_release released;
+    found = at(table, row, steps);
+  }
+  return nb::cast(*std::move(found));
+}
+
 std::string json(const Results& results) {
   std::ostringstream text;
   results::write_json(text, results);
@@ -154,6 +168,7 @@ nb::tuple run(const scene::Scene& scene, const std::vector<std::size_t>& which, 
   results::Collector collector;
   studies::RunOptions options;
   options.coefficients = coefficients;
+  options.motions = true;
   options.threads = threads;
   std::size_t begun = 0;
   const auto ended_by = supervised(report, [&](const control::Control& control) {
@@ -168,6 +183,12 @@ nb::tuple run(const scene::Scene& scene, const std::vector<std::size_t>& which, 
 }  // namespace
 
 void bind_results(nb::module_& core) {
+  nb::class_<results::TableRows>(core, "TableRows")
+      .def("schema", [](const results::TableRows& record) { return described(record.table); })
+      .def("__len__", [](const results::TableRows& record) { return record.rows.count; })
+      .def("column", [](nb::handle_t<results::TableRows> self, std::size_t column) {
+        return as_column(nb::cast<const results::TableRows&>(self).rows.columns.at(column), self);
+      });
   nb::class_<Results>(core, "Results")
       .def("header", header)
       .def("schemas", schemas)
@@ -175,6 +196,7 @@ void bind_results(nb::module_& core) {
       .def("facts", facts)
       .def("counts", counts)
       .def("column", column)
+      .def("motion", motion, nb::arg("result"), nb::arg("table"), nb::arg("row"), nb::arg("steps"))
       .def("json", json)
       .def("remarks", [](const Results& results) {
         const auto [early_ends, doubts] = remarks(results);

@@ -67,14 +67,97 @@ def test_loops_of_further_directions_have_their_names(examples: Path) -> None:
         assert motion.loops[f"{element}.{direction}"].force is motion[name]
 
 
-def test_branch_has_no_motion_and_says_which_studies_have(scene: arcslip.Scene) -> None:
-    (branch,) = scene.frf()
-    for of in (0, branch.events[0]):
-        with pytest.raises(ValueError, match="found a branch of kind 'frf', .*scene.point"):
-            branch.motion(of)
+def agrees(motion: arcslip.Motion, row: arcslip.Row) -> None:
+    """Check a motion by what is known of its row: the period, the amplitude and the dissipated energy."""
+    assert np.abs(motion.displacement).max() == pytest.approx(row.amplitude, rel=1e-4)
+    displacement, force = motion.loops["damper"]
+    assert np.trapezoid(force, displacement) == pytest.approx(row["elements.damper.energy"], rel=1e-4, abs=1e-12)
+    assert force[0] == pytest.approx(force[-1], abs=1e-9) and motion.period == motion.time[-1]
 
 
-def test_row_is_no_number_of_a_period(scene: arcslip.Scene, response: arcslip.Result) -> None:
+def test_points_and_events_of_branches_have_motions(scene: arcslip.Scene) -> None:
+    loads = {"damper.normal_load": [2.0, 4.0]}
+    for branch in scene.frf(for_each=loads):
+        (peak,) = branch.events["peak"]
+        for row in (branch.points[0], branch.points[-1], peak, branch.points[10:20][3]):
+            agrees(branch.motion(row), row)
+            assert branch.motion(row).period == pytest.approx(1 / row.frequency, rel=1e-14)
+        assert branch.motion(-1).displacement.tolist() == branch.motion(branch.points[-1]).displacement.tolist()
+        assert len(branch.motion(peak, steps=50)) < 60
+        (response,) = scene.replace({"damper.normal_load": branch.set["damper.normal_load"]}).point(
+            frequency=peak.frequency, steps=200
+        )
+        ours, other = branch.motion(peak, steps=200), response.motion()
+        np.testing.assert_allclose(ours.displacement, other.displacement, atol=1e-9 * peak.amplitude)
+        np.testing.assert_allclose(ours.elements.damper.force, other.elements.damper.force, atol=1e-7)
+
+
+def test_curves_over_a_parameter_have_motions(scene: arcslip.Scene) -> None:
+    load = "damper.normal_load"
+    for (branch,) in (
+        scene.trace(over=load, from_=1.0, to=6.0, frequency=18.0),
+        scene.peaks(over=load, from_=1.0, to=6.0, frequency=[14, 25]),
+    ):
+        for row in (branch.points[0], branch.points[len(branch) // 2], branch.points[-1]):
+            agrees(branch.motion(row), row)
+
+
+def test_motion_has_the_harmonics_of_its_branch(scene: arcslip.Scene) -> None:
+    (branch,) = scene.replace(harmonics=101, accuracy=1e-3).frf()
+    assert branch.points["order"].max() < 101
+    for row in (branch.events["peak"][0], branch.points[0]):
+        agrees(branch.motion(row), row)
+
+
+def test_branches_of_twice_the_period_have_motions(examples: Path) -> None:
+    branches = arcslip.Scene(examples / "double_well/scene.json").frf(branches="all", for_each={})
+    doubled = [branch for branch in branches if branch.facts["period"] == 2]
+    for branch in doubled:
+        row = branch.points[len(branch) // 2]
+        motion = branch.motion(row)
+        assert motion.period == pytest.approx(2 * math.tau / row.omega, rel=1e-14)
+        middle = np.interp(motion.period / 2, motion.time, motion.displacement)
+        assert abs(middle - motion.displacement[0]) > 1e-3 * row.amplitude
+        assert np.abs(motion.displacement).max() == pytest.approx(row.amplitude, rel=1e-4)
+    assert doubled
+
+
+def test_modes_have_motions(scene: arcslip.Scene) -> None:
+    (mode,) = scene.modes(amplitude=[1e-4, 3e-3])
+    for row in (mode.points[0], mode.points[-1]):
+        agrees(mode.motion(row), row)
+        assert mode.motion(row).period == pytest.approx(1 / row.frequency, rel=1e-12)
+
+
+def test_results_without_motions_say_so(scene: arcslip.Scene, oscillator: dict[str, object], tmp_path: Path) -> None:
+    branches = scene.frf()
+    with pytest.raises(ValueError, match="found a branch of kind 'frf' without motions"):
+        pickle.loads(pickle.dumps(branches))[0].motion(0)
+    branches.save(tmp_path / "branches.json")
+    with pytest.raises(ValueError, match="scene.point"):
+        arcslip.load(tmp_path / "branches.json")[0].motion(0)
+    (exact,) = scene.frf(method="shooting")
+    with pytest.raises(ValueError, match="without motions"):
+        exact.motion(0)
+    (branch,) = branches
+    with pytest.raises(IndexError):
+        branch.motion(len(branch))
+    with pytest.raises(ValueError, match="a row that is not of this branch"):
+        branch.motion(exact.events[0])
+    with pytest.raises(ValueError, match="found steps=0"):
+        branch.motion(0, steps=0)
+    with pytest.raises(TypeError):
+        branch.motion("peak")  # type: ignore[arg-type]
+    unbounded = scene.replace({"c.value": 0, "damper.normal_load": 0}).frf()
+    rows = [row for each in unbounded for row in each.events if not math.isfinite(row.amplitude)]
+    assert rows
+    with pytest.raises(ValueError, match="an unbounded response has no history"):
+        unbounded[0].motion(rows[0])
+
+
+def test_row_is_no_number_of_a_period(response: arcslip.Result) -> None:
+    with pytest.raises(ValueError, match="found steps=10, must be given to the study"):
+        response.motion(0, steps=10)
     with pytest.raises(TypeError):
         response.motion(response.history[0])
     with pytest.raises(TypeError):

@@ -26,17 +26,6 @@ constexpr double entry_reduction = 0.25;
 constexpr double entry_error = 0.25;  // of the distance to other half-branches
 constexpr double entry_turn = 0.3;    // of the angle to them
 
-// The model with harmonics; samples are those of the period of the motion.
-std::shared_ptr<const model::Model> model_in_harmonics(const model::Model& model,
-                                                       const elements::Harmonics& harmonics) {
-  model::Model other = model;
-  other.settings.samples = model.settings.samples / model.harmonics.period * harmonics.period;
-  other.settings.order = harmonics.order;
-  other.settings.period = harmonics.period;
-  other.harmonics = harmonics;
-  return std::make_shared<const model::Model>(std::move(other));
-}
-
 // Of the unknowns of one set of harmonics, those that another one of fewer lacks.
 std::vector<int> lacking(const elements::Harmonics& wide, const elements::Harmonics& narrow, int blocks) {
   const auto is_new = [&](int n) {
@@ -78,8 +67,8 @@ elements::Harmonics without(const elements::Harmonics& harmonics, BrokenSymmetry
 
 std::shared_ptr<const hbm::HbmProblem> in_harmonics(const hbm::HbmProblem& problem,
                                                     const elements::Harmonics& harmonics, double about) {
-  return std::make_shared<const hbm::HbmProblem>(model_in_harmonics(problem.model(), harmonics), harmonics,
-                                                 problem.displacement(),
+  auto model = std::make_shared<const model::Model>(model::in_harmonics(problem.model(), harmonics));
+  return std::make_shared<const hbm::HbmProblem>(std::move(model), harmonics, problem.displacement(),
                                                  problem.parameters()[model::frequency].scale, about);
 }
 

@@ -2,6 +2,7 @@
 
 #include <arcslip/analyses/branches/branch_description.hpp>
 #include <arcslip/fourier/harmonics.hpp>
+#include <arcslip/observables/histories.hpp>
 #include <arcslip/results/reasons.hpp>
 
 #include <algorithm>
@@ -15,10 +16,6 @@ constexpr std::size_t overlap = 3;         // points on each side that a part ta
 constexpr std::size_t points_between = 4;  // points between two parts: fewer belong to one
 constexpr double most_refined = 0.8;       // of the points: beyond, the whole branch is traced anew
 constexpr double same_response = 40;       // times the error allowed: the estimate is at least |dx|/20
-
-elements::Harmonics harmonics_of(const ResponseBranch& branch) {
-  return {branch.harmonics.back(), branch.harmonics.front() > 0, branch.period};
-}
 
 std::vector<double> unknowns_in_harmonics(const std::vector<double>& u, const elements::Harmonics& from,
                                           const elements::Harmonics& to) {

@@ -2,6 +2,7 @@
 
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/text.hpp>
+#include <arcslip/studies/presentation/histories.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -202,8 +203,13 @@ results::Result result(const scene::Scene& scene, const ResponseBranch& branch, 
 Described<ResponseBranch> branches(const scene::Scene& scene, Asked asked, const RunOptions& options) {
   asked.coefficients = options.coefficients;
   const auto tables = std::make_shared<const BranchTables>(scene, asked);
-  return {schema(scene, asked, *tables), [&scene, tables, asked, options](const ResponseBranch& branch) {
-            return result(scene, branch, *tables, asked, options);
+  const auto kept = options.motions ? std::make_shared<const scene::Scene>(scene) : nullptr;
+  return {schema(scene, asked, *tables),
+          [&scene, tables, asked, options, kept](const ResponseBranch& branch) {
+            results::Result all = result(scene, branch, *tables, asked, options);
+            const bool has_motions = !branch.points.empty() && !branch.points.front().unknowns.empty();
+            if (kept && has_motions) all.end.motion = motion_at(kept, branch);
+            return all;
           }};
 }
 

@@ -11,6 +11,7 @@ struct RunOptions {
   // all points.
   bool events_only = false;
   bool coefficients = false;  // points and events with the Fourier coefficients a_n, b_n of the response
+  bool motions = false;       // results::End::motion, which keeps the unknowns of points and events
   bool figures = false;
   control::Control control{};  // at its end the results so far are kept
   // For combinations of for_each, or load cases of one optimum, that are computed at the same time; where

@@ -176,7 +176,7 @@ TEST_CASE("no history is made of an unbounded response, nor of a point of anothe
   const scene::Scene s = scenes::paper(5, 3);
   auto branch = beginning_at(s, 20);
   const auto angles = observables::even_angles(10);
-  CHECK_THROWS_AS(observables::history(scenes::paper(7, 3), branch, branch.points.front(), angles),
+  CHECK_THROWS_AS(observables::history(scenes::chain(8, true), branch, branch.points.front(), angles),
                   std::invalid_argument);
   branch.points.front().unbounded = true;
   CHECK_THROWS_AS(observables::history(s, branch, branch.points.front(), angles), std::invalid_argument);
