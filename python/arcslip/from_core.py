@@ -38,7 +38,7 @@ def from_core(core: _core.Results, labels: Mapping[str, str]) -> Results:
     for i in range(len(core)):
         about = core.facts(i)
         schema = schemas[about["schema"]]
-        about["noun"] = schema["noun"]
+        about["noun"], about["list"] = schema["noun"], schema["list"]
         about["facts"] = packed(about["facts"])
         tables = {
             table["key"]: _table(table, count, partial(core.column, i, t))
@@ -49,7 +49,9 @@ def from_core(core: _core.Results, labels: Mapping[str, str]) -> Results:
         lists.append(schema["list"])
         parents.append(about["parent"])
     link(results, lists, parents)
-    return Results(core.header(), results, core)
+    formats = {schema["format"] for schema in schemas}
+    format_ = formats.pop() if len(formats) == 1 else "arcslip-results-1"
+    return Results(core.header() | {"format": format_}, results, core)
 
 
 def warn(core: _core.Results, stacklevel: int) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, overload
 
 from . import _core
 from .frames import chosen, data_frame, data_set, joined_frame
+from .json_text import as_document
 from .markup import of_result, of_results
 from .motions import Motion, motion_of
 from .names import Named, nearest
@@ -66,6 +67,7 @@ class Result(Named):
         self.facts: dict[str, Any] = about["facts"]
         self.set_units: dict[str, str] = about["set_units"]
         self._labels = labels
+        self._list: str = about["list"]  # of the results of a file, in which it is
         #: The history at a row of a table, (table, row, steps); None where it was not kept.
         self._history: Callable[[int, int, int], Table | None] | None = None
 
@@ -230,6 +232,7 @@ class Results(Sequence[Result]):
         self.frequency_unit: str = header["frequency_unit"]
         self.notes: list[str] = list(header.get("notes") or [])
         self.reduction: dict[str, Any] = header["reduction"]
+        self._format: str = header["format"]
         self._all = tuple(results)
         self._core = core
 
@@ -356,19 +359,20 @@ class Results(Sequence[Result]):
         return draw(self._of(study), ax, x, y)
 
     def to_json(self) -> str:
-        """Return the text of the file that the command writes. Of results that were computed here, and not loaded."""
-        if self._core is None:
-            raise ValueError("these results were loaded, or unpickled: their text is that of their file")
-        return self._core.json()
+        """Return the text of the JSON file that the command writes.
+
+        Of results that were loaded or unpickled, missing values are null, and what their file did not tell is left out.
+        """
+        return as_document(self) if self._core is None else self._core.json()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the file that the command writes, which `load` reads."""
+        """Write `to_json` to a file, which `load` reads."""
         text = self.to_json()
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
 
     def __reduce__(self) -> Any:
-        header = {key: getattr(self, key) for key in HEADER}
+        header = {key: getattr(self, key) for key in HEADER} | {"format": self._format}
         return Results, (header, self._all)
 
     def __repr__(self) -> str:

@@ -152,24 +152,3 @@ def test_memory_is_flat_over_many_results(oscillator: dict[str, Any]) -> None:
     before = resident()
     cycles(1000)
     assert resident() - before < 8e6
-
-
-def test_file_that_holds_no_results_is_refused(tmp_path: Path, examples: Path) -> None:
-    with pytest.raises(ValueError, match="no results"):
-        arcslip.load(examples / "duffing/scene.json")
-    with pytest.raises(OSError):
-        arcslip.load(tmp_path / "none.json")
-    (tmp_path / "list.json").write_text("[]")
-    with pytest.raises(ValueError, match="no results"):
-        arcslip.load(tmp_path / "list.json")
-
-
-def test_loaded_results_read_like_computed_ones(scene: arcslip.Scene, tmp_path: Path) -> None:
-    results = scene.frf()
-    results.save(tmp_path / "results.json")
-    (loaded,) = arcslip.load(tmp_path / "results.json")
-    assert loaded.events["peak"][0].amplitude == results[0].events["peak"][0].amplitude
-    assert loaded.parameters == results[0].parameters
-    assert repr(loaded) == repr(results[0])
-    with pytest.raises(ValueError, match="loaded"):
-        arcslip.load(tmp_path / "results.json").save(tmp_path / "again.json")
