@@ -1,4 +1,4 @@
-"""NumPy arrays and sparse matrices in place of the files that a scene names, without the disk between."""
+"""NumPy arrays, sparse matrices and tables in place of the files that a scene names, without the disk between."""
 
 from __future__ import annotations
 
@@ -46,6 +46,42 @@ def named_rows(rows: Mapping[str, int]) -> bytes:
     return ("name,row\n" + "".join(f"{name},{int(row) + 1}\n" for name, row in rows.items())).encode()
 
 
+def face_pairs(pairs: Any) -> bytes:
+    """Return pairs of rows, shape (pairs, 2), which count from 0, as the text of a file of faces."""
+    found = np.asarray(pairs)
+    if found.ndim != 2 or found.shape[1] != 2 or found.dtype.kind not in "iu":
+        raise TypeError(f"found faces of the shape {found.shape} and {found.dtype}, must be pairs of rows, whole numbers")
+    return ("own,next\n" + "".join(f"{own + 1},{next_ + 1}\n" for own, next_ in found.tolist())).encode()
+
+
+def _columns(value: Any) -> dict[str, list[Any]] | None:
+    """Return the columns of a mapping, a data frame or a structured array; None for something else."""
+    if isinstance(value, Mapping):
+        columns = {str(name): np.asarray(each).tolist() for name, each in value.items()}
+    elif isinstance(value, np.ndarray) and value.dtype.names:
+        columns = {name: value[name].tolist() for name in value.dtype.names}
+    elif hasattr(value, "to_dict") and hasattr(value, "columns"):
+        columns = {str(name): list(each) for name, each in value.to_dict("list").items()}
+    else:
+        return None
+    if any(not isinstance(each, list) for each in columns.values()) or len({len(each) for each in columns.values()}) > 1:
+        raise ValueError(f"found columns of different lengths, {', '.join(columns)}, must be lists of the same one")
+    return columns
+
+
+def csv_table(columns: Mapping[str, Sequence[Any]]) -> bytes:
+    """Return columns as the text of a CSV file; missing values are empty cells."""
+
+    def cell(value: Any) -> str:
+        text = "" if value is None or value != value else value if isinstance(value, str) else repr(value)
+        if any(character in text for character in ',"\r\n'):
+            raise ValueError(f"found {text!r} in a table, must be without commas, quotes and line breaks")
+        return text
+
+    lines = [",".join(map(cell, columns)), *(",".join(map(cell, row)) for row in zip(*columns.values(), strict=True))]
+    return ("\n".join(lines) + "\n").encode()
+
+
 class Files:
     """Takes the arrays out of a scene, and puts the names of files in their place."""
 
@@ -53,7 +89,7 @@ class Files:
         self.contents: dict[str, bytes] = {}
 
     def add(self, key: str, content: bytes) -> str:
-        extension = "csv" if content.startswith(b"name,row") else "mtx"
+        extension = "mtx" if content.startswith(b"%%") else "csv"
         path = f"arrays/{key}.{extension}"
         number = 1
         while self.contents.get(path, content) != content:
@@ -68,6 +104,12 @@ class Files:
             return self.add(key, matrix_market(value))
         if key == "names" and isinstance(value, Mapping):
             return self.add(key, named_rows(value))
+        if key == "faces" and not isinstance(value, str):
+            return self.add(key, face_pairs(value))
+        if key == "file" and (columns := _columns(value)) is not None:
+            return self.add("table", csv_table(columns))
+        if key == "for_each" and not isinstance(value, Mapping) and (columns := _columns(value)) is not None:
+            return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
         if isinstance(value, Mapping):
             return {str(name): self.plain(each, str(name), key) for name, each in value.items()}
         if isinstance(value, (np.ndarray, np.generic)):

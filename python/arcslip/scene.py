@@ -13,6 +13,7 @@ from . import _core
 from .arrays import as_json
 from .ensemble import Ensemble, ensemble
 from .markup import of_scene
+from .mat_program import provide
 from .methods import StudyMethods
 from .parameters import Parameters
 from .progress import Progress
@@ -36,8 +37,10 @@ class Scene(StudyMethods):
     ----------
     source : path, str or dict
         The path of a scene file; its text, which begins with "{"; or what it holds as a dict. In a dict, NumPy arrays and
-        sparse matrices of SciPy stand in place of the files of `matrices` and of the `shape` of a force, and a dict from name
-        to row, counted from 0, in place of the file of `names`. Other arrays are lists.
+        sparse matrices of SciPy stand in place of the files of `matrices` and of the `shape` of a force, a dict from name
+        to row, counted from 0, in place of the file of `names`, pairs of such rows, shape (pairs, 2), of that of `faces`, and
+        columns, as a dict, a data frame or a structured array, of the `file` of a patch. Other arrays are lists. MATLAB files
+        are read by SciPy and h5py: the extra ``arcslip[mat]`` has them.
     folder : path, optional
         What paths in a text or a dict are relative to; by default the current directory.
 
@@ -64,6 +67,8 @@ class Scene(StudyMethods):
         elif isinstance(source, str) and source.lstrip().startswith("{"):
             self._set(_read(source, folder, {}))
         elif isinstance(source, (str, os.PathLike)):
+            if b".mat" in Path(source).read_bytes():
+                provide()
             self._set(_core.Scene.read_file(str(Path(source))))
         else:
             raise TypeError(f"found a scene of type {type(source).__name__}, must be a path, a text or a dict")
@@ -222,9 +227,33 @@ class Scene(StudyMethods):
         """
         return ensemble(self, samples, study, keep, executor, threads, path, progress)
 
-    def to_json(self) -> str:
-        """Return the text of a scene file, with every default."""
-        return self._data.write()
+    def to_json(self, *, folder: str | os.PathLike[str] | None = None) -> str:
+        """Return the text of a scene file, with every default.
+
+        Parameters
+        ----------
+        folder : path, optional
+            Where the file is to be: paths in the text are relative to it, and the arrays that stand in place of files are
+            written there, into ``arrays/``. By default paths are those of the scene.
+
+        Raises
+        ------
+        FileExistsError
+            If another file has the name of one of the arrays.
+        OSError
+            If a file cannot be written.
+        """
+        if folder is None:
+            return self._data.write()
+        before, after = Path(self._data.folder), Path(folder)
+        arrays = {path: text for path, text in self._data.files().items() if not (before / path).exists()}
+        for path, text in arrays.items():
+            if (after / path).exists() and (after / path).read_bytes() != text:
+                raise FileExistsError(f"{after / path} is another file, which is left as it is")
+        for path, text in arrays.items():
+            (after / path).parent.mkdir(parents=True, exist_ok=True)
+            (after / path).write_bytes(text)
+        return self._data.write_in(os.fspath(folder), list(arrays))
 
     def to_dict(self) -> dict[str, Any]:
         """Return what a scene file holds, with every default."""
@@ -264,6 +293,8 @@ def _restored(text: str, folder: str, files: dict[str, bytes]) -> Scene:
 
 def _read(text: str, folder: str | os.PathLike[str], files: dict[str, bytes]) -> _core.Scene:
     text.encode()  # lone surrogates raise UnicodeEncodeError
+    if ".mat" in text:
+        provide()
     return _core.Scene.read(text, os.fspath(folder), files)
 
 

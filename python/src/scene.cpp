@@ -64,6 +64,16 @@ nb::dict files(Scene scene) {
   return all;
 }
 
+/// The text of the scene as a file in another folder. kept: paths that are relative to it already.
+std::string write_in(const Scene& scene, const std::string& folder, const std::vector<std::string>& kept) {
+  Scene there = scene::from_folder(scene, folder);
+  Scene here = scene;
+  const auto before = scene::files(here), after = scene::files(there);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (std::find(kept.begin(), kept.end(), before[i]->path) != kept.end()) after[i]->path = before[i]->path;
+  return scene::write(there);
+}
+
 nb::list parameters(const Scene& scene) {
   nb::list all;
   for (const std::string& name : scene::parameter_names(scene)) {
@@ -170,6 +180,7 @@ void bind_scene(nb::module_& core) {
       .def_static("read_file", read_file, nb::arg("path"))
       .def_static("read", read, nb::arg("text"), nb::arg("folder"), nb::arg("files"))
       .def("write", [](const Scene& scene) { return scene::write(scene); })
+      .def("write_in", write_in, nb::arg("folder"), nb::arg("kept"))
       .def("hash", [](const Scene& scene) { return scene::hash(scene); })
       .def("files", files)
       .def("parameters", parameters)

@@ -259,3 +259,76 @@ def test_scene_can_be_read_in_a_forked_process(scene: arcslip.Scene) -> None:
     if child == 0:
         os._exit(0 if len(scene.frf()[0]) > 10 else 1)
     assert os.waitpid(child, 0)[1] == 0
+
+
+PATCH = {
+    "tangential": ["t", "t", "t"],
+    "normal": ["n + 0.02*tilt", "n", "n - 0.02*tilt"],
+    "area": [1e-4, 2e-4, 1e-4],
+    "pressure": [1e6, 2e6, 1e6],
+}
+
+
+def flange(examples: Path, contacts: object) -> dict[str, Any]:
+    of: dict[str, Any] = json.loads((examples / "contact_patch/scene.json").read_text())
+    of["patches"][0]["file"] = contacts
+    of["studies"] = [{"name": "response", "kind": "frf", "from": 60, "to": 100}]
+    return of
+
+
+def test_columns_stand_in_place_of_tables(examples: Path, tmp_path: Path) -> None:
+    pandas = pytest.importorskip("pandas")
+    kinds = [("tangential", "U20"), ("normal", "U20"), ("area", float), ("pressure", float)]
+    rows = np.array(list(zip(*PATCH.values(), strict=True)), dtype=kinds)
+    scenes = [arcslip.Scene(flange(examples, each)) for each in (PATCH, pandas.DataFrame(PATCH), rows)]
+    lines = [",".join(PATCH), *(",".join(map(str, row)) for row in zip(*PATCH.values(), strict=True))]
+    (tmp_path / "flange.csv").write_text("\n".join(lines))
+    of_file = arcslip.Scene(flange(examples, "flange.csv"), folder=tmp_path)
+    assert len(set(scenes)) == 1
+    assert scenes[0].frf()[0].amplitude.tolist() == of_file.frf()[0].amplitude.tolist()
+    with pytest.raises(ValueError, match="different lengths"):
+        arcslip.Scene(flange(examples, PATCH | {"area": [1e-4]}))
+    with pytest.raises(ValueError, match="must be without commas"):
+        arcslip.Scene(flange(examples, PATCH | {"normal": ["n, t", "n", "n"]}))
+    with pytest.raises(arcslip.SceneError):
+        arcslip.Scene(flange(examples, {"area": [1.0]}))
+
+
+def test_faces_are_pairs_of_rows(examples: Path) -> None:
+    path = examples / "disk_sector/scene.json"
+    of_file = arcslip.Scene(path)
+    scene = json.loads(path.read_text())
+    name = scene["structure"]["matrices"]["faces"]
+    pairs = np.loadtxt(path.parent / name, delimiter=",", skiprows=1, dtype=int) - 1
+    scene["structure"]["matrices"]["faces"] = pairs
+    same = arcslip.Scene(scene, folder=path.parent)
+    study = of_file.studies[0].name
+    first, second = of_file.run(study), same.run(study)
+    assert [each.amplitude.tolist() for each in first] == [each.amplitude.tolist() for each in second]
+    for wrong in (pairs[:, 0], pairs + 0.5, np.zeros((3, 3), int)):
+        scene["structure"]["matrices"]["faces"] = wrong
+        with pytest.raises(TypeError, match="must be pairs of rows"):
+            arcslip.Scene(scene, folder=path.parent)
+
+
+def test_rows_of_a_data_frame_are_combinations(scene: arcslip.Scene) -> None:
+    pandas = pytest.importorskip("pandas")
+    rows = {"damper.normal_load": [2.0, 4.0], "k.value": [1.0e4, 1.1e4]}
+    found = scene.frf(for_each=pandas.DataFrame(rows))
+    assert [branch.set for branch in found] == [{"damper.normal_load": 2.0, "k.value": 1e4}, {"damper.normal_load": 4.0, "k.value": 1.1e4}]
+
+
+def test_scene_is_written_into_a_folder_with_its_arrays(examples: Path, tmp_path: Path) -> None:
+    scene = arcslip.Scene(chain(MASS, STIFFNESS))
+    (tmp_path / "scene.json").write_text(scene.to_json(folder=tmp_path))
+    assert sorted(path.name for path in (tmp_path / "arrays").iterdir()) == ["mass.mtx", "names.csv", "shape.mtx", "stiffness.mtx"]
+    assert arcslip.Scene(tmp_path / "scene.json") == scene
+    scene.to_json(folder=tmp_path)  # the same files again
+    (tmp_path / "arrays/mass.mtx").write_text("of somebody else")
+    with pytest.raises(FileExistsError, match="is another file"):
+        scene.to_json(folder=tmp_path)
+    assert (tmp_path / "arrays/mass.mtx").read_text() == "of somebody else"
+    of_files = arcslip.Scene(examples / "contact_patch/scene.json")
+    (tmp_path / "patch.json").write_text(of_files.to_json(folder=tmp_path))
+    assert arcslip.Scene(tmp_path / "patch.json").frf(to=70)[0].amplitude.tolist() == of_files.frf(to=70)[0].amplitude.tolist()
+    assert len(list((tmp_path / "arrays").iterdir())) == 4
