@@ -2,6 +2,15 @@
 
 include(ArcslipFlags)
 
+# arcslip_find(NAME PACKAGE [VERSION] ...) finds what the project needs, as find_package(NAME ...); PACKAGE is Debian's.
+macro(arcslip_find name package)
+  find_package(${name} ${ARGN} QUIET)
+  if(NOT ${name}_FOUND)
+    string(REGEX MATCH "^[0-9.]+" needed "${ARGN}")
+    message(FATAL_ERROR "${name} ${needed} was not found, which Arcslip needs. Debian and Ubuntu have it in the package ${package}.")
+  endif()
+endmacro()
+
 # Compiled once for all files that reuse it: Eigen and std, which nearly each of them includes, and still includes by name,
 # and that products of matrices are compiled once. No other header of the project, so that a change of one compiles only
 # what includes it.

@@ -15,6 +15,7 @@ Public are the names of ``__all__``, and their attributes that do not begin with
 """
 
 from ._core import __version__
+from .config import show_config
 from .ensemble import Ensemble
 from .errors import ArcslipWarning, Fault, ParameterError, SceneError
 from .files import load
@@ -47,4 +48,5 @@ __all__ = [
     "__version__",
     "load",
     "schema",
+    "show_config",
 ]

@@ -22,6 +22,7 @@ from .arrays import as_json
 from .errors import ArcslipWarning
 from .progress import Progress, Report, reporting
 from .tables import Table, as_array
+from .threads import available, checked
 
 if TYPE_CHECKING:
     import sqlite3
@@ -253,7 +254,7 @@ def _by_executor(scene: Scene, index: int, keep: str, path: str, executor: Execu
     """Compute what a file does not have, by an executor; return the number of samples that it has."""
     chunks = _Chunks(_core.missing_samples(scene._data, index, keep, path))
     left = iter(chunks)
-    at_once = 2 * int(getattr(executor, "_max_workers", None) or os.cpu_count() or 1)
+    at_once = 2 * int(getattr(executor, "_max_workers", None) or available())
     running: dict[Future[Any], tuple[tuple[int, int], int]] = {}
 
     def submit(samples: tuple[int, int], attempt: int) -> None:
@@ -296,8 +297,7 @@ def ensemble(
     progress: Progress | None,
 ) -> Ensemble:
     """Compute an ensemble: `Scene.ensemble`."""
-    if threads is not None and threads < 1:
-        raise ValueError(f"found threads={threads}, must be at least 1")
+    checked(threads)
     core, index = _with_samples(scene, samples, study)
     names = keep if isinstance(keep, str) else ",".join(keep)
     if path is not None:
@@ -326,7 +326,7 @@ def _computed(
     error: BaseException | None = None
     with reporting(progress, core.studies()[index][0]) as report:
         if executor is None:
-            _, _, error = _core.run_ensemble(core, index, keep, file, ALL, threads or os.cpu_count() or 1, report)
+            _, _, error = _core.run_ensemble(core, index, keep, file, ALL, checked(threads), report)
         else:
             _by_executor(scene, index, keep, file, executor, report)
     if error is not None:

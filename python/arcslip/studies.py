@@ -5,7 +5,6 @@ from __future__ import annotations
 import inspect
 import json
 import keyword
-import os
 import textwrap
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -18,6 +17,7 @@ from .from_core import from_core, warn
 from .names import nearest
 from .progress import Progress, reporting
 from .results import Results
+from .threads import checked
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -52,11 +52,10 @@ def run(
     core: _core.Scene, which: Sequence[int], coefficients: bool, threads: int | None, progress: Progress | None
 ) -> Results:
     """Run studies of a scene. What ends them early is raised with the results so far as its attribute `results`."""
-    if threads is not None and threads < 1:
-        raise ValueError(f"found threads={threads}, must be at least 1")
+    count = checked(threads)
     studies = core.studies()
     with reporting(progress, ", ".join(dict.fromkeys(studies[i][0] for i in which))) as report:
-        found, begun, error = _core.run(core, list(which), coefficients, threads or os.cpu_count() or 1, report)
+        found, begun, error = _core.run(core, list(which), coefficients, count, report)
         results = from_core(found, core.labels)
         if error is not None:
             error.results = results  # type: ignore[attr-defined]

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import arcslip
+from arcslip.command import PROGRAM
 
 #: Libraries of the system that a manylinux wheel may need.
 OF_SYSTEM = {"libc", "libm", "libstdc++", "libgcc_s", "libpthread", "libdl", "librt", "ld-linux-x86-64", "linux-vdso"}
@@ -50,6 +51,43 @@ def test_command_is_installed_and_hands_on_its_exit_code(tmp_path: Path) -> None
     assert subprocess.run([script, "check", tmp_path / "none.json"], capture_output=True, check=False).returncode != 0
 
 
+def test_wheel_is_for_glibc_2_34() -> None:
+    wheel = importlib.metadata.distribution("arcslip").read_text("WHEEL") or ""
+    assert re.search(r"^Tag: cp3\d+-(cp3\d+|abi3)-manylinux_2_34_x86_64$", wheel, re.MULTILINE), wheel
+    assert max(versions("GLIBC"), key=numbers) <= "GLIBC_2.34" and max(versions("GLIBCXX"), key=numbers) <= "GLIBCXX_3.4.29"
+
+
+def numbers(version: str) -> list[int]:
+    return [int(each) for each in version.split("_")[1].split(".")]
+
+
+def versions(of: str) -> set[str]:
+    """The versions of symbols that the extension and the command need."""
+    files = [*Path(arcslip.__file__).parent.glob("_core*.so"), PROGRAM]
+    return {each.decode() for file in files for each in re.findall(rf"{of}_\d+(?:\.\d+)+".encode(), file.read_bytes())}
+
+
+def test_wheel_carries_the_licences_of_its_libraries() -> None:
+    config = arcslip.show_config("dicts")
+    assert config is not None
+    names = {each["name"] for each in config["libraries"]}
+    assert {"Eigen", "NLopt", "SuiteSparse (CHOLMOD)", "CLI11", "nlohmann/json"} <= names
+    texts = {name: Path(file).read_text(encoding="utf-8") for name, file in config["licences"].items()}
+    expected = {"openblas", "suitesparse", "nlopt", "eigen3", "nlohmann-json3", "cli11", "sqlite3", "metis", "nanobind"}
+    assert expected <= set(texts)
+    assert "Lesser General Public License" in texts["suitesparse"] and "Mozilla Public License" in texts["eigen3"]
+    carried = {path.name for path in Path(arcslip.__file__).parents[1].glob("arcslip.libs/*")}
+    assert any("quadmath" in name for name in carried) <= any(name.startswith("gcc") for name in texts)
+
+
+def test_config_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    assert arcslip.show_config() is None
+    shown = capsys.readouterr().out
+    assert f"version: {arcslip.__version__}" in shown and "  Eigen 3" in shown and "openblas" in shown
+    with pytest.raises(ValueError, match="found mode='json'"):
+        arcslip.show_config("json")  # type: ignore[call-overload]
+
+
 def test_import_takes_numpy_alone() -> None:
     code = "import sys, arcslip; print(sorted({name.split('.')[0] for name in sys.modules}))"
     found = subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, check=True).stdout
@@ -60,7 +98,7 @@ def test_import_takes_numpy_alone() -> None:
 
 def test_extras_are_those_of_the_metadata() -> None:
     about = importlib.metadata.metadata("arcslip")
-    assert set(about.get_all("Provides-Extra") or []) == {"plot", "pandas", "ensemble", "all"}
+    assert set(about.get_all("Provides-Extra") or []) == {"plot", "pandas", "ensemble", "mat", "all"}
     required = [line for line in about.get_all("Requires-Dist") or [] if "extra ==" not in line]
     assert len(required) == 1 and required[0].startswith("numpy")
 
