@@ -16,9 +16,10 @@ Public are the names of ``__all__``, and their attributes that do not begin with
 
 from ._core import __version__
 from .config import show_config
-from .ensemble import Ensemble
+from .ensembles.ensemble import Ensemble
+from .ensembles.sobol import SobolIndices, saltelli
 from .errors import ArcslipWarning, Fault, ParameterError, SceneError
-from .files import load
+from .files.loading import load
 from .motions import Loop, Motion
 from .optimum import Optimum
 from .parameters import Parameter, Parameters
@@ -44,9 +45,11 @@ __all__ = [
     "Row",
     "Scene",
     "SceneError",
+    "SobolIndices",
     "Table",
     "__version__",
     "load",
+    "saltelli",
     "schema",
     "show_config",
 ]

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import NoReturn
 
-from .mat_program import provide
+from .files.mat_program import provide
 
 PROGRAM = Path(__file__).parent / "bin" / "arcslip"
 

@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 from . import _core
 from .command import PROGRAM
+from .extras import required
 from .threads import available
 
 LICENCES = Path(__file__).parent / "licences"
@@ -29,10 +30,9 @@ def _of_command() -> dict[str, str]:
 def _pools() -> list[dict[str, Any]] | None:
     """Return the pools of threads of this process, those of NumPy as well; None without threadpoolctl."""
     try:
-        import threadpoolctl
-    except ModuleNotFoundError:
+        pools: list[dict[str, Any]] = required("threadpoolctl", "ensemble").threadpool_info()
+    except ImportError:
         return None
-    pools: list[dict[str, Any]] = threadpoolctl.threadpool_info()
     return pools
 
 

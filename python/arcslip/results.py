@@ -7,13 +7,13 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
 from . import _core
-from .frames import chosen, data_frame, data_set, joined_frame
-from .json_text import as_document
-from .markup import of_result, of_results
+from .files.json_text import as_document
 from .motions import Motion, motion_of
 from .names import Named, nearest
-from .plotting import draw
 from .tables import Row, Table
+from .views.frames import chosen, data_frame, data_set, joined_frame
+from .views.markup import of_result, of_results
+from .views.plotting import draw
 
 if TYPE_CHECKING:
     import pandas

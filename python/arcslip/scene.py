@@ -10,15 +10,15 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from . import _core
-from .arrays import as_json
-from .ensemble import Ensemble, ensemble
-from .markup import of_scene
-from .mat_program import provide
+from .ensembles.ensemble import Ensemble, ensemble
+from .files.arrays import as_json
+from .files.mat_program import provide
 from .methods import StudyMethods
 from .parameters import Parameters
 from .progress import Progress
 from .results import Results
 from .studies import run
+from .views.markup import of_scene
 
 
 class Study(NamedTuple):
@@ -198,9 +198,10 @@ class Scene(StudyMethods):
 
         Parameters
         ----------
-        samples : mapping or data frame, optional
-            Values of parameters by name, one for each sample; or distributions, as `for_each` of a scene has them:
-            ``{"distributions": {"damper.normal_load": {"normal": [30, 3]}}, "count": 2000}``. By default those of the study.
+        samples : mapping, data frame, structured array or path, optional
+            Values of parameters by name, one for each sample, also of a file, Parquet or CSV; or distributions, as `for_each`
+            of a scene has them: ``{"distributions": {"damper.normal_load": {"normal": [30, 3]}}, "count": 2000}``. By default
+            those of the study.
         study : str, optional
             The study; by default the first one, or without `samples` the first one that has some.
         keep : sequence of str, optional

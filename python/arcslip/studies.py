@@ -11,8 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from .arrays import as_json
 from .errors import ArcslipWarning
+from .files.arrays import as_json
 from .from_core import from_core, warn
 from .names import nearest
 from .progress import Progress, reporting

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from .frames import data_frame
-from .markup import of_table
 from .names import Named, nearest
+from .views.frames import data_frame
+from .views.markup import of_table
 
 if TYPE_CHECKING:
     import pandas

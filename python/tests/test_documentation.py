@@ -37,7 +37,7 @@ def test_examples_of_the_page_run(page: str, capsys: pytest.CaptureFixture[str])
 
 def test_examples_of_docstrings_run() -> None:
     finder, runner = doctest.DocTestFinder(recurse=True), doctest.DocTestRunner()
-    modules = [importlib.import_module(f"arcslip.{each.name}") for each in pkgutil.iter_modules(arcslip.__path__)]
+    modules = [importlib.import_module(each.name) for each in pkgutil.walk_packages(arcslip.__path__, "arcslip.")]
     for module in [arcslip, *modules]:
         for test in finder.find(module, module.__name__, globs={"arcslip": arcslip}):
             runner.run(test)

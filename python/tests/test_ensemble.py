@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import gc
+import math
 import multiprocessing
+import os
 import pickle
+import shutil
 import subprocess
+import sys
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -187,3 +191,94 @@ def test_what_cannot_be_is_refused(scene: arcslip.Scene, arguments: dict[str, An
 def test_values_out_of_bounds_are_faults(scene: arcslip.Scene) -> None:
     with pytest.raises(arcslip.SceneError, match="must be at least 0"):
         scene.ensemble({"damper.normal_load": [1.0, -1.0]})
+
+
+def test_dask_computes_the_same(scene: arcslip.Scene) -> None:
+    distributed = pytest.importorskip("distributed")
+    samples = {"damper.normal_load": np.linspace(3, 5, 40)}
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
+        with distributed.Client(cluster) as client:
+            found = scene.ensemble(samples, executor=client.get_executor())
+    assert same(found, scene.ensemble(samples))
+
+
+def test_ranks_of_mpi_compute_the_same(oscillator: dict[str, Any], tmp_path: Path) -> None:
+    pytest.importorskip("mpi4py")
+    mpiexec = shutil.which("mpiexec")
+    if mpiexec is None:
+        pytest.skip("needs mpiexec")
+    oscillator["studies"][0]["for_each"] = DISTRIBUTIONS
+    (tmp_path / "scene.json").write_text(arcslip.Scene(oscillator).to_json())
+    (tmp_path / "run.py").write_text(
+        "import arcslip\n"
+        "from mpi4py.futures import MPIPoolExecutor\n"
+        "if __name__ == '__main__':\n"
+        "    with MPIPoolExecutor() as executor:\n"
+        "        arcslip.Scene('scene.json').ensemble(executor=executor, path='mpi.sqlite')\n"
+    )
+    ranks = [mpiexec, "--allow-run-as-root", "--oversubscribe", "-n", "3", sys.executable, "-P", "-m", "mpi4py.futures", "run.py"]
+    environment = os.environ | {"OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+    subprocess.run(ranks, cwd=tmp_path, check=True, capture_output=True, env=environment, timeout=120)
+    assert same(arcslip.Ensemble(tmp_path / "mpi.sqlite"), arcslip.Scene(oscillator).ensemble())
+
+
+def test_samples_are_columns_of_files_and_tables(scene: arcslip.Scene, tmp_path: Path) -> None:
+    arrow, pandas = pytest.importorskip("pyarrow"), pytest.importorskip("pandas")
+    parquet = pytest.importorskip("pyarrow.parquet")
+    columns = {"k.value": np.linspace(9e3, 1.1e4, 12), "damper.normal_load": np.linspace(3, 5, 12)}
+    expected = scene.ensemble(columns)
+    parquet.write_table(arrow.table(columns), tmp_path / "mc.parquet")
+    pandas.DataFrame(columns).to_csv(tmp_path / "mc.csv", index=False, float_format="%.17g")
+    rows = np.array(list(zip(*columns.values(), strict=True)), dtype=[(name, float) for name in columns])
+    for samples in (tmp_path / "mc.parquet", str(tmp_path / "mc.csv"), arrow.table(columns), rows, pandas.DataFrame(columns)):
+        assert same(scene.ensemble(samples), expected)
+    with pytest.raises(TypeError, match="found samples of type ndarray"):
+        scene.ensemble(np.ones((3, 2)))
+    (tmp_path / "wrong.csv").write_text("k.value\n1,2\n")
+    with pytest.raises(ValueError, match="found 2 columns"):
+        scene.ensemble(tmp_path / "wrong.csv")
+
+
+def test_samples_become_parquet_and_arrays(scene: arcslip.Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    monkeypatch.setattr("arcslip.ensembles.tables.BATCH", 7)
+    found = scene.ensemble(DISTRIBUTIONS, keep=["amplitude", "fold.frequency"])
+    found.to_parquet(tmp_path / "a.parquet")
+    found.to_npz(tmp_path / "a.npz")
+    table, arrays = parquet.read_table(tmp_path / "a.parquet"), np.load(tmp_path / "a.npz")
+    assert table.column_names == list(found.columns) == list(arrays)
+    assert table.schema.field("amplitude").metadata == {b"unit": b"m"}
+    assert table.schema.metadata[b"count"] == b"60"
+    for name in found.columns:
+        read = table[name].to_numpy()
+        if found[name].dtype.kind == "f":
+            np.testing.assert_array_equal(read.astype(float), found[name])
+        np.testing.assert_array_equal(arrays[name], found[name])
+
+
+def test_sobol_indices_are_those_of_a_product(scene: arcslip.Scene) -> None:
+    pytest.importorskip("SALib")
+    scene = scene.replace({"damper.normal_load": 0.0, "c.value": 1e-3})
+    spread = {"k.value": 0.1, "m.value": 0.05}
+    mean = {"k.value": 1e4, "m.value": 1.0}
+    lognormal = {name: {"lognormal": [mean[name], mean[name] * spread[name]]} for name in spread}
+    found = scene.ensemble(arcslip.saltelli(lognormal | {"c.value": {"uniform": [1e-3, 2e-3]}}, 256), study="response")
+    indices = found.sobol_indices("frequency")
+    # frequency = sqrt(k/m)/(2 pi): of lognormal k and m the logarithms have the variances log(1 + spread^2)
+    variance = {name: math.log(1 + each**2) for name, each in spread.items()}
+    terms = {name: math.expm1(each / 4) for name, each in variance.items()}
+    whole = math.expm1(sum(variance.values()) / 4)
+    assert indices.parameters == ("k.value", "m.value", "c.value")
+    first = [terms["k.value"] / whole, terms["m.value"] / whole, 0]
+    total = [terms["k.value"] * (1 + terms["m.value"]) / whole, terms["m.value"] * (1 + terms["k.value"]) / whole, 0]
+    assert np.all(np.abs(indices.first - first) <= np.maximum(indices.first_error, 1e-6))
+    assert np.all(np.abs(indices.total - total) <= np.maximum(indices.total_error, 1e-6))
+    assert indices.first_error.max() < 0.15
+    with pytest.raises(ValueError, match="other samples than those of arcslip.saltelli"):
+        scene.ensemble(DISTRIBUTIONS).sobol_indices("frequency")
+    with pytest.raises(ValueError, match="found count=100, must be a power of two"):
+        arcslip.saltelli(lognormal, 100)
+    with pytest.raises(ValueError, match="found the distribution 'gamma' of 'k.value'"):
+        arcslip.saltelli({"k.value": {"gamma": [1, 2]}}, 8)
+    with pytest.raises(ValueError, match="is the same in all samples"):
+        found.sobol_indices("results")

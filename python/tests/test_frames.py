@@ -101,10 +101,10 @@ def test_results_without_rows_change_no_type(scene: arcslip.Scene) -> None:
 def test_column_of_some_results_is_missing_in_the_others() -> None:
     def result(columns: list[str], count: int) -> arcslip.Result:
         table = arcslip.Table(columns, count, [np.arange(count), np.array([[1.0, 2.0]] * count)].__getitem__)
-        about = dict.fromkeys(["noun", "study", "status", "doubt"], "") | {"kind": "k", "facts": {}, "stop": {}}
+        about = dict.fromkeys(["noun", "list", "study", "status", "doubt"], "") | {"kind": "k", "facts": {}, "stop": {}}
         return arcslip.Result(about | {"set": {}, "set_units": {}}, {"points": table}, {})
 
-    header = dict.fromkeys(["program", "scene_hash", "title", "frequency_unit"], "") | {"reduction": {}}
+    header = dict.fromkeys(["program", "format", "scene_hash", "title", "frequency_unit"], "") | {"reduction": {}}
     results = arcslip.Results(header, [result(["a"], 3), result(["a", "b"], 2)])
     data = results.to_xarray()
     assert data["b"].shape == (2, 3, 2)

@@ -14,7 +14,7 @@ import scipy.io
 import scipy.sparse
 
 import arcslip
-from arcslip.mat_program import answer
+from arcslip.files.mat_program import answer
 
 h5py = pytest.importorskip("h5py")
 

@@ -97,7 +97,7 @@ def test_search_without_an_optimum_has_no_design(scene: arcslip.Scene) -> None:
 @pytest.mark.parametrize(("unit", "per"), [("N", "m/N"), ("N s/m", "m/(N s/m)"), ("-", "m"), ("", "")])
 def test_unit_of_a_gradient(unit: str, per: str) -> None:
     table = arcslip.Table(["p", "amplitude"], 0, lambda i: np.empty(0), {"p": unit} if unit else {})
-    about = dict.fromkeys(["noun", "study", "kind", "status", "doubt"], "") | {"set": {}, "set_units": {}, "stop": {}}
+    about = dict.fromkeys(["noun", "list", "study", "kind", "status", "doubt"], "") | {"set": {}, "set_units": {}, "stop": {}}
     facts = {"certificate": {"gradient": {"p": 1.0}}}
     assert arcslip.Optimum(about | {"facts": facts}, {"course": table}, {}).gradient["p"].unit == per
 

@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 import arcslip
-from arcslip.marks import MARKS
+from arcslip.views.marks import MARKS
 
 matplotlib.use("agg")
 OVER_LOAD = {"over": "damper.normal_load", "from_": 1.0, "to": 6.0}

@@ -17,7 +17,7 @@ import pytest
 import scipy.sparse
 
 import arcslip
-from arcslip.arrays import matrix_market
+from arcslip.files.arrays import matrix_market
 
 
 def test_path_text_and_dict_give_the_same_scene(tmp_path: Path, oscillator: dict[str, Any]) -> None:

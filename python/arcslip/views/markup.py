@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .results import Result, Results
-    from .scene import Scene
-    from .tables import Table
+    from ..results import Result, Results
+    from ..scene import Scene
+    from ..tables import Table
 
 #: Rows and columns that a table shows; of more, the first and the last rows.
 MOST_ROWS, MOST_COLUMNS = 10, 8

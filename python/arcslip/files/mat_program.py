@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from .extras import required
+from ..extras import required
 
 MUST = ", must be a real matrix of doubles, sparse or full"
 DAMAGED = "found a file that cannot be read; it may be damaged"

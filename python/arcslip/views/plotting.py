@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from .extras import required
+from ..extras import required
 from .marks import MARKS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from .optimum import Optimum
-    from .results import Result
-    from .tables import Table
+    from ..optimum import Optimum
+    from ..results import Result
+    from ..tables import Table
 
 #: The columns of the axes for kinds of studies; of others they are those of a response. "over" is the parameter that a branch
 #: is over.

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from .results import Result, Results
-    from .tables import Table
+    from ..results import Result, Results
+    from ..tables import Table
 
 #: Tables that are written as a list for each column, and not as an object for each row.
 BY_COLUMNS = ("history",)

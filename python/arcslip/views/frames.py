@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .extras import required
-from .names import nearest
+from ..extras import required
+from ..names import nearest
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from .results import Result
-    from .tables import Table
+    from ..results import Result
+    from ..tables import Table
 
 #: The dimensions of a data set: results, and rows of their tables.
 COMBINATION, POINT = "combination", "point"

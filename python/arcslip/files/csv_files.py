@@ -11,10 +11,10 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from ..optimum import result
+from ..results import Result, Results, link
+from ..tables import Table
 from .cells import column, with_arrays
-from .optimum import result
-from .results import Result, Results, link
-from .tables import Table
 
 #: The list, the main table and the format of the results that the column of a number names.
 KINDS = {

@@ -17,17 +17,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _core
-from .arrays import as_json
-from .errors import ArcslipWarning
-from .progress import Progress, Report, reporting
-from .tables import Table, as_array
-from .threads import available, checked
+from .. import _core
+from ..errors import ArcslipWarning
+from ..files.arrays import as_json
+from ..files.sqlite_files import column, connected, quoted
+from ..progress import Progress, Report, reporting
+from ..tables import Table
+from ..threads import available, checked
+from .sobol import SobolIndices, indices
+from .tables import columns_of, write_npz, write_parquet
 
 if TYPE_CHECKING:
-    import sqlite3
-
-    from .scene import Scene
+    from ..scene import Scene
 
 #: All samples, however many there are.
 ALL = (0, 10**9)
@@ -38,33 +39,6 @@ LARGEST_CHUNK = 10_000
 #: A chunk whose worker fails is computed again so many times.
 ATTEMPTS = 3
 COMMIT_EVERY = 1.0
-
-
-def quoted(name: str) -> str:
-    """Return a name as SQL has it."""
-    return '"' + name.replace('"', '""') + '"'
-
-
-def connected(path: str | os.PathLike[str], mode: str = "ro") -> sqlite3.Connection:
-    """Return a connection to a file."""
-    import sqlite3  # which not every build of Python has
-
-    return sqlite3.connect(f"{Path(path).absolute().as_uri()}?mode={mode}", uri=True, isolation_level=None)
-
-
-def column(path: Path, table: str, name: str, order: str) -> Any:
-    """Return a column of a table: numbers with NaN where there is none, else texts."""
-    with closing(connected(path)) as file:
-        count, texts = file.execute(
-            f"SELECT count(*), count(*) FILTER (WHERE typeof({quoted(name)}) = 'text') FROM {quoted(table)}"
-        ).fetchone()
-        rows = file.execute(f"SELECT {quoted(name)} FROM {quoted(table)} ORDER BY {order}")
-        declared = {row[1]: row[2] for row in file.execute(f"PRAGMA table_info({quoted(table)})")}
-        if texts or declared[name] == "TEXT":
-            return as_array([None if value is None else str(value) for (value,) in rows], "text")
-        whole = declared[name] == "INTEGER"
-        values = np.fromiter((np.nan if value is None else value for (value,) in rows), float, count)
-    return values.astype(np.int64) if whole and not np.isnan(values).any() else values
 
 
 class Ensemble(Table):
@@ -123,6 +97,41 @@ class Ensemble(Table):
             units = dict(file.execute("SELECT name, unit FROM columns WHERE of = ? AND unit NOT IN ('', '-')", (name,)))
         return Table(names, count, lambda i: column(self.path, name, names[i], "rowid"), units)
 
+    def to_parquet(self, path: str | os.PathLike[str]) -> None:
+        """Write the samples to a Parquet file, with the unit of each column in its metadata.
+
+        Memory does not grow with their number.
+
+        Raises
+        ------
+        ImportError
+            If pyarrow is not installed: the extra ``arcslip[ensemble]`` has it.
+        """
+        write_parquet(self, path)
+
+    def to_npz(self, path: str | os.PathLike[str]) -> None:
+        """Write the samples to a file that `numpy.load` reads, an array for each column."""
+        write_npz(self, path)
+
+    def sobol_indices(self, quantity: str, *, seed: int = 1) -> SobolIndices:
+        """Return the Sobol indices of a quantity, by SALib, of an ensemble whose samples are those of `saltelli`.
+
+        Parameters
+        ----------
+        quantity : str
+            A column: "amplitude".
+        seed : int
+            Of the bootstrap that gives their errors.
+
+        Raises
+        ------
+        ValueError
+            If the samples are others, if some are not complete, or if the quantity does not vary.
+        ImportError
+            If SALib is not installed: the extra ``arcslip[ensemble]`` has it.
+        """
+        return indices(self, quantity, seed)
+
     def __reduce__(self) -> Any:
         return super().__reduce__()
 
@@ -130,8 +139,8 @@ class Ensemble(Table):
         return f"<ensemble of {len(self)} samples: {', '.join(self.heads())}>"
 
 
-def _rows(samples: Mapping[str, Any]) -> list[dict[str, float]]:
-    columns = {str(name): np.asarray(samples[name], dtype=float) for name in samples.keys()}  # noqa: SIM118, of data frames
+def _rows(samples: Any) -> list[dict[str, float]]:
+    columns = {str(name): np.asarray(values, dtype=float) for name, values in columns_of(samples).items()}
     for name, values in columns.items():
         if values.ndim != 1:
             raise ValueError(f"found {values.ndim} dimensions of {name!r}, must be one value for each sample")

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from ..optimum import result
+from ..results import HEADER, Result, Results, link
+from ..tables import Table, packed
 from .cells import column, with_arrays
-from .optimum import result
-from .results import HEADER, Result, Results, link
-from .tables import Table, packed
 
 #: The members of a result that are tables.
 TABLES = ("points", "events", "history", "trials", "course", "cases")

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .tables import as_array
+from ..tables import as_array
 
 
 def column(values: Sequence[Any]) -> Any:

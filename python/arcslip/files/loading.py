@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from ..results import Results
 from .csv_files import of_tables
 from .json_files import of_document
-from .results import Results
 
 SQLITE = b"SQLite format 3\0"
 

@@ -1,0 +1,1 @@
+"""Ensembles: a study for many samples of parameters."""

@@ -1,0 +1,1 @@
+"""Files: of results, of ensembles, and what stands in scenes in place of files."""
