@@ -144,11 +144,14 @@ def test_memory_is_flat_over_many_results(oscillator: dict[str, Any]) -> None:
     scene = arcslip.Scene(oscillator)
 
     def cycles(count: int) -> None:
-        for _ in range(count):
+        for i in range(count):
             arcslip.Scene(oscillator).replace({"c.value": 1.0})
-            scene.frf(from_=10, to=10.2)[0].amplitude.sum()
+            if i % 10 == 0:
+                branch = scene.frf(from_=10, to=10.2)[0]
+                branch.amplitude.sum()
+                branch.motion(0, steps=10)
 
-    cycles(300)
+    cycles(3000)
     before = resident()
-    cycles(1000)
+    cycles(10_000)
     assert resident() - before < 8e6
