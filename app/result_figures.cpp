@@ -4,7 +4,7 @@
 
 #include "output/message.hpp"
 
-#include <arcslip/results/figure.hpp>
+#include <arcslip/results/figure_data.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -90,7 +90,7 @@ std::string label_of(const results::Object& set) {
 }
 
 results::FigureColumn axis_of(const Column& column) {
-  return {.label = results::with_unit(results::name(column), column.unit)};
+  return {.words = results::name(column), .unit = column.unit};
 }
 
 std::optional<results::FigureData> figure_of(const results::Results& all, std::size_t schema,
@@ -109,11 +109,7 @@ std::optional<results::FigureData> figure_of(const results::Results& all, std::s
     if (!line.parts.empty()) data.lines.push_back(std::move(line));
   }
   for (std::size_t c = 0; c < data.columns.size(); ++c) data.columns[c].range = results::full_range(data, c);
-  data.figures = {{.name = results::name(table.columns[axes->y]),
-                   .x = 0,
-                   .y = 1,
-                   .x_label = data.columns[0].label,
-                   .y_label = data.columns[1].label}};
+  data.figures = {{.name = results::name(table.columns[axes->y])}};
   return data;
 }
 
@@ -131,7 +127,9 @@ ExitCode plot_results(const CommandOptions& options) {
     if (!data || data->lines.empty()) continue;
     std::string name = file.stem().string() + "_plot";
     if (all.schemas.size() > 1) name += "_" + all.schemas[schema].list;
-    const DrawnFigures drawn = write_figures({folder.empty() ? "." : folder, name}, {*data}, writing);
+    const DrawnFigures drawn =
+        FiguresOfStudy({folder.empty() ? "." : folder, name}, {*data}, options.figures, writing)
+            .finish(writing);
     if (!drawn.problem.empty()) tell(drawn.problem);
     for (const std::string& path : drawn.paths) places += results::visible(path) + "\n";
   }

@@ -16,6 +16,7 @@
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/studies/presentation/columns.hpp>
+#include <arcslip/studies/presentation/units.hpp>
 #include <arcslip/studies/study_kind.hpp>
 
 #include <algorithm>
@@ -109,6 +110,14 @@ void check_combinations(const CommandOptions& options, const std::vector<scene::
   }
 }
 
+/// Throws where amplitudes cannot be divided by a force.
+void check_receptance(const CommandOptions& options, const scene::Scene& scene) {
+  if (options.receptance && !(studies::force_amplitude(scene, {}) >= 0))
+    throw UsageError(
+        "--receptance divides amplitudes by the force of the scene, which has to have a single excitation: a "
+        "force of the first harmonic");
+}
+
 void tell_partial(Interruption& interruption) {
   if (interruption.is_new())
     tell("interrupted; the results so far will be written (press Ctrl-C again to quit at once)");
@@ -160,47 +169,68 @@ std::vector<File> own_files(const StudyFiles& files, const results::Schema& sche
   return all;
 }
 
-/// Writes all files of a study to its folder: those that were open, the scene and the figures. Returns their
-/// paths.
-std::vector<std::string> write_set(ResultsFolder& folder, const StudyFiles& files, const scene::Scene& scene,
-                                   const results::Header& header, OpenFiles& open,
-                                   const std::vector<results::FigureData>& figures, Writing& writing) {
-  scene::FileSet set{files.name, header.program, header.scene_hash, false, {}};
-  std::vector<std::string> names = figure_names(files, figures);
-  const auto taken =
-      std::find_if(names.begin(), names.end(), [&](const auto& name) { return folder.is_source(name); });
-  const bool may_draw = taken == names.end();
-  const std::string what = "the figures of " + results::visible(files.path(""));
-  if (!may_draw) {
-    tell(what + " were not drawn: " + results::visible(*taken) + " is a file that the scene reads");
-    writing.misses(what);
-    names.clear();
+/// The files of a study in its folder: those that were open, the scene and the figures, which are drawn while
+/// the next study is computed.
+class SetOfFiles {
+ public:
+  SetOfFiles(ResultsFolder& folder, const StudyFiles& files, const scene::Scene& scene,
+             const results::Header& header, OpenFiles& open, const std::vector<results::FigureData>& figures,
+             const output::FigureOptions& options, Writing& writing)
+      : folder_(folder), name_(files.name) {
+    std::vector<std::string> names = figure_names(files, figures, options);
+    const auto taken =
+        std::find_if(names.begin(), names.end(), [&](const auto& name) { return folder.is_source(name); });
+    const bool may_draw = taken == names.end();
+    const std::string what = "the figures of " + results::visible(files.path(""));
+    if (!may_draw) {
+      tell(what + " were not drawn: " + results::visible(*taken) + " is a file that the scene reads");
+      writing.misses(what);
+      names.clear();
+    }
+    const std::size_t missing = writing.failures();
+    if (!begin(files, header, open, std::move(names), writing)) return;
+    written_ = write_scene(files, scene, writing);
+    for (std::string& table : open.commit(writing)) written_.push_back(std::move(table));
+    figures_.emplace(files, may_draw ? figures : std::vector<results::FigureData>(), options, writing);
+    is_complete_ = writing.failures() == missing;
   }
-  for (const std::string& path : open.paths())
-    names.push_back(std::filesystem::path(path).filename().string());
-  names.push_back(std::filesystem::path(files.path(".scene.json")).filename().string());
-  for (std::string& name : names) set.files.push_back({std::move(name)});
-  const std::size_t missing = writing.failures();
-  if (!writing.attempt("the manifest", [&] { folder.begin_set(set); })) {
+
+  /// Waits for the figures. Returns the paths of all files.
+  std::vector<std::string> finish(Writing& writing) {
+    if (!figures_) return {};
+    const DrawnFigures drawn = figures_->finish(writing);
+    written_.insert(written_.end(), drawn.paths.begin(), drawn.paths.end());
+    std::vector<std::string> removed;
+    writing.attempt("the manifest", [&] { removed = folder_.end_set(name_, written_, is_complete_); });
+    const bool images = std::any_of(removed.begin(), removed.end(), [](const std::string& name) {
+      return name.ends_with(".svg") || name.ends_with(".png") || name.ends_with(".pdf");
+    });
+    if (!drawn.problem.empty())
+      tell(drawn.problem +
+           (images ? "; those of an earlier run were removed, since they show other data" : ""));
+    return std::move(written_);
+  }
+
+ private:
+  /// Records the set in the manifest. figures: the names of their files. Returns success.
+  bool begin(const StudyFiles& files, const results::Header& header, const OpenFiles& open,
+             std::vector<std::string> names, Writing& writing) {
+    scene::FileSet set{files.name, header.program, header.scene_hash, false, {}};
+    for (const std::string& path : open.paths())
+      names.push_back(std::filesystem::path(path).filename().string());
+    names.push_back(std::filesystem::path(files.path(".scene.json")).filename().string());
+    for (std::string& name : names) set.files.push_back({std::move(name)});
+    if (writing.attempt("the manifest", [&] { folder_.begin_set(set); })) return true;
     writing.misses("all files of " + results::visible(files.path("")));
-    return {};
+    return false;
   }
-  std::vector<std::string> written = write_scene(files, scene, writing);
-  DrawnFigures drawn;
-  const std::vector<std::string> tables = open.commit(writing);
-  if (may_draw) drawn = write_figures(files, figures, writing);
-  for (const auto& paths : {tables, drawn.paths}) written.insert(written.end(), paths.begin(), paths.end());
-  std::vector<std::string> removed;
-  writing.attempt("the manifest",
-                  [&] { removed = folder.end_set(set.name, written, writing.failures() == missing); });
-  const bool images = std::any_of(removed.begin(), removed.end(), [](const std::string& name) {
-    return name.ends_with(".svg") || name.ends_with(".png");
-  });
-  if (!drawn.problem.empty())
-    tell(drawn.problem +
-         (images ? "; those of an earlier run were removed, since they show other data" : ""));
-  return written;
-}
+
+  ResultsFolder& folder_;
+  std::string name_;
+  std::vector<std::string> written_{};  // paths
+  bool is_complete_ = false;
+  std::optional<FiguresOfStudy> figures_{};  // none: nothing was written
+};
 
 bool are_of_one_list(std::span<const results::Schema> schemas) {
   return std::all_of(schemas.begin(), schemas.end(),
@@ -288,6 +318,7 @@ class StudiesRun {
     return {.points = !options.out.empty() || !options.json.empty() || !options.csv.empty(),
             .coefficients = options.coefficients,
             .figures = !options.out.empty() || !report_path(options).empty(),
+            .receptance = options.receptance,
             .threads = options.threads.value_or(processors)};
   }
 
@@ -330,10 +361,16 @@ class StudiesRun {
     sinks.finish();
     if (how_.figures && !options_.quiet) tell_not_drawn(studies_[i], figures);
     tell_remarks(remarks);
-    if (held_)
-      for (const std::string& path : write_set(*held_, files_[i], scene_, header_, own, figures, writing_))
-        places_ += results::visible(path) + "\n";
+    finish_set();
+    if (held_) set_.emplace(*held_, files_[i], scene_, header_, own, figures, options_.figures, writing_);
     if (report_) report_->add_figures(i, std::move(figures));
+  }
+
+  /// Waits for the figures of the last study.
+  void finish_set() {
+    if (!set_) return;
+    for (const std::string& path : set_->finish(writing_)) places_ += results::visible(path) + "\n";
+    set_.reset();
   }
 
   /// Returns whether the page was written.
@@ -356,6 +393,7 @@ class StudiesRun {
       return;
     }
     const bool is_written = write_page(path);
+    finish_set();
     if (is_written) places_ += results::visible(path) + "\n";
     if (is_set)
       writing_.attempt("the manifest", [&] {
@@ -381,6 +419,7 @@ class StudiesRun {
           tell(results::visible(path) + " is left from earlier results: these have no such table");
       common_.finish(writing_, screen);
       if (report_) write_report();
+      finish_set();
     }
     if (!takes_standard_output(options_)) {
       if (!places_.empty() && !options_.quiet) tables_ << '\n' << places_;
@@ -407,6 +446,7 @@ class StudiesRun {
   std::optional<report::Report> report_;
   Interruption interruption_;
   Writing writing_;
+  std::optional<SetOfFiles> set_;  // of the last study
   ExitCode code_ = ExitCode::done;
   bool any_begun_ = false;
   std::string places_;  // of the files that were written
@@ -419,6 +459,7 @@ ExitCode run_studies(const scene::Scene& scene, const std::vector<scene::Study>&
                      const CommandOptions& options, const std::vector<std::string>& notes) {
   check_one_table(options, scene, studies);
   check_combinations(options, studies);
+  check_receptance(options, scene);
   return StudiesRun(scene, studies, options, notes).run();
 }
 

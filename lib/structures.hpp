@@ -20,6 +20,7 @@
 #include <arcslip/analyses/responses/shooting_response.hpp>
 #include <arcslip/continuation.hpp>
 #include <arcslip/ensemble/ensemble.hpp>
+#include <arcslip/figures/layout.hpp>
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/laws/contact/contact_2d.hpp>
 #include <arcslip/laws/contact/contact_3d.hpp>

@@ -90,6 +90,19 @@ void add_columns_and_events(CLI::App& verb, Texts& texts) {
       ->type_name("KIND,KIND...");
 }
 
+void add_figure_options(CLI::App& verb, Texts& texts) {
+  verb.add_option("--figures", texts.figures,
+                  "formats of figures: svg, png, pdf, or none, which leaves their data and gnuplot scripts "
+                  "(default: svg,png)")
+      ->type_name("FORMAT,FORMAT...");
+  verb.add_option("--figure-size", texts.figure_size,
+                  "width and height of figures in pixels of 1/96 inch (default: 800x500)")
+      ->type_name("WxH");
+  verb.add_option("--figure-style", texts.figure_style,
+                  "colour, or grey for print without colours (default: colour)")
+      ->type_name("STYLE");
+}
+
 void add_running_options(CLI::App& verb, CommandOptions& options, Texts& texts) {
   verb.add_option("--threads", texts.threads,
                   "threads for combinations, load cases of an optimum, and elements of a response (default: "
@@ -123,6 +136,9 @@ void add_study_options(CLI::App& verb, Verb& of, CommandOptions& options, Texts&
                       std::to_string(scene::usual_combinations) + ")")
       ->type_name("N");
   add_columns_and_events(verb, texts);
+  add_figure_options(verb, texts);
+  verb.add_flag("--receptance", options.receptance,
+                "draw amplitudes over the amplitude of the force, too, where the scene has one force");
   add_running_options(verb, options, texts);
 }
 
@@ -203,6 +219,7 @@ void add_result_verbs(OptionTree& tree) {
   add_columns_and_events(*show, tree.texts);
   plot->add_option("--out", options.out, "folder for the figures (default: that of the file)")
       ->type_name("DIR");
+  add_figure_options(*plot, tree.texts);
   plot->add_option("--x", options.x, "column along x (default: the frequency, or the parameter that varies)")
       ->type_name("NAME");
   plot->add_option("--y", options.y, "column along y (default: amplitude)")->type_name("NAME");

@@ -27,7 +27,8 @@ struct Verb {
 /// Option values kept as text until parsing is complete.
 struct Texts {
   std::vector<std::string> set;
-  std::string harmonics, accuracy, combinations, threads, columns, events, tolerance, shell;
+  std::string harmonics, accuracy, combinations, threads, columns, events, tolerance, shell, figures,
+      figure_size, figure_style;
   std::map<std::string, std::string> numbers{};  // of a new scene, by their options
 };
 

@@ -104,7 +104,10 @@ void check_values_given(const CLI::App& verb, const Texts& texts) {
                                      {"--combinations", &texts.combinations},
                                      {"--threads", &texts.threads},
                                      {"--columns", &texts.columns},
-                                     {"--events", &texts.events}})
+                                     {"--events", &texts.events},
+                                     {"--figures", &texts.figures},
+                                     {"--figure-size", &texts.figure_size},
+                                     {"--figure-style", &texts.figure_style}})
     if (given(verb, option) && text->empty()) throw UsageError(std::string(option) + ": found no value");
 }
 
@@ -119,6 +122,38 @@ std::vector<std::string> names_in(const std::string& option, const std::string& 
   if (std::find(names.begin(), names.end(), "") != names.end())
     throw UsageError(option + " " + text + ": must be names with commas between them");
   return names;
+}
+
+/// --figures, --figure-size and --figure-style.
+output::FigureOptions figure_options(const CLI::App& verb, const Texts& texts) {
+  constexpr int least = 200, most = 10'000;
+  output::FigureOptions options;
+  if (given(verb, "--figures")) options.formats = names_in("--figures", texts.figures);
+  if (options.formats == std::vector<std::string>{"none"}) options.formats.clear();
+  for (const std::string& format : options.formats)
+    if (std::find(output::figure_formats.begin(), output::figure_formats.end(), format) ==
+            output::figure_formats.end() ||
+        std::count(options.formats.begin(), options.formats.end(), format) > 1)
+      throw UsageError("--figures " + texts.figures +
+                       ": must be none, or svg, png and pdf, each once at most");
+  if (given(verb, "--figure-size")) {
+    const auto by = texts.figure_size.find('x');
+    const std::string allowed = "WIDTHxHEIGHT, from 200 to 10000 each, as 800x500";
+    const auto side = [&](const std::string& text) {
+      const int pixels = whole_number("--figure-size", text, allowed).value_or(0);
+      if (pixels < least || pixels > most)
+        throw UsageError("--figure-size " + texts.figure_size + ": must be " + allowed);
+      return pixels;
+    };
+    options.style.width = side(texts.figure_size.substr(0, by));
+    options.style.height = side(by == std::string::npos ? "" : texts.figure_size.substr(by + 1));
+  }
+  if (given(verb, "--figure-style")) {
+    if (texts.figure_style != "colour" && texts.figure_style != "grey")
+      throw UsageError("--figure-style " + texts.figure_style + ": must be colour or grey");
+    options.style.is_grey = texts.figure_style == "grey";
+  }
+  return options;
 }
 
 double tolerance(const std::string& text) {
@@ -142,6 +177,7 @@ void read_texts(const CLI::App& verb, const Verb& of, const Texts& texts, Comman
   options.tolerance = tolerance(texts.tolerance);
   options.columns = names_in("--columns", texts.columns);
   options.events = names_in("--events", texts.events);
+  options.figures = figure_options(verb, texts);
   for (const KeyOption& option : of.keys)
     if (given(verb, option.name())) options.keys.push_back(option.given());
 }

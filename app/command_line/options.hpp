@@ -4,6 +4,7 @@
 #include "../exit_code.hpp"
 
 #include <arcslip/control/error.hpp>
+#include <arcslip/output/figures.hpp>
 #include <arcslip/scene/keys/json_tree.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/study_type.hpp>
@@ -64,6 +65,8 @@ struct CommandOptions {
   std::array<std::string, 2> files{};  // of results
   std::string x, y;                    // columns to plot; "": the usual ones
   double tolerance = 0;                // of compare
+  output::FigureOptions figures{};
+  bool receptance = false;  // a figure of it for each of amplitudes
   bool coefficients = false;
   bool quiet = false;
 };

@@ -5,7 +5,6 @@
 #include "message.hpp"
 
 #include <arcslip/output/atomic_file.hpp>
-#include <arcslip/output/figures.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/results/text.hpp>
@@ -202,32 +201,39 @@ std::string figure_name(const StudyFiles& files, const results::FigureData& data
 }  // namespace
 
 std::vector<std::string> figure_names(const StudyFiles& files,
-                                      const std::vector<results::FigureData>& figures) {
+                                      const std::vector<results::FigureData>& figures,
+                                      const output::FigureOptions& options) {
   std::vector<std::string> names;
   for (const results::FigureData& data : figures)
-    for (std::string& name : output::figure_files(data, figure_name(files, data)))
+    for (std::string& name : output::figure_files(data, figure_name(files, data), options))
       names.push_back(std::move(name));
   return names;
 }
 
-DrawnFigures write_figures(const StudyFiles& files, const std::vector<results::FigureData>& figures,
-                           Writing& writing) {
-  DrawnFigures drawn;
-  const std::string what = "the figures of " + results::visible(files.path(""));
-  const auto draw = [&](const results::FigureData& data) {
+FiguresOfStudy::FiguresOfStudy(const StudyFiles& files, const std::vector<results::FigureData>& figures,
+                               const output::FigureOptions& options, Writing& writing)
+    : what_("the figures of " + results::visible(files.path(""))) {
+  if (figures.empty()) return;
+  std::vector<output::NamedFigures> all;
+  for (const results::FigureData& data : figures) all.push_back({figure_name(files, data), data});
+  writing.attempt(what_, [&] {
     try {
-      const output::Figures now =
-          output::draw_figures(data, files.folder, figure_name(files, data), by_signal());
-      drawn.paths.insert(drawn.paths.end(), now.sources.begin(), now.sources.end());
-      drawn.paths.insert(drawn.paths.end(), now.images.begin(), now.images.end());
-      if (drawn.problem.empty()) drawn.problem = now.problem;  // those of others are alike
+      drawing_ = std::make_unique<output::DrawingFigures>(all, files.folder, options, by_signal());
     } catch (const std::bad_alloc&) {
-      drawn.problem = "no figure was drawn: out of memory";
+      drawn_.problem = "no figure was drawn: out of memory";
     }
-  };
-  for (const results::FigureData& data : figures) writing.attempt(what, [&] { draw(data); });
-  if (!drawn.problem.empty()) writing.misses(what);
-  return drawn;
+  });
+}
+
+DrawnFigures FiguresOfStudy::finish(Writing& writing) {
+  if (drawing_) {
+    const output::Figures done = drawing_->finish();
+    drawn_.paths = done.sources;
+    drawn_.paths.insert(drawn_.paths.end(), done.images.begin(), done.images.end());
+    drawn_.problem = done.problem;
+  }
+  if (!drawn_.problem.empty()) writing.misses(what_);
+  return std::move(drawn_);
 }
 
 }  // namespace arcslip::app

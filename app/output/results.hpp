@@ -3,7 +3,8 @@
 
 #include "../exit_code.hpp"
 
-#include <arcslip/results/figure.hpp>
+#include <arcslip/output/figures.hpp>
+#include <arcslip/results/figure_data.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -89,16 +90,31 @@ class Writing {
 /// Writes the resolved scene next to the results of its study. Returns its path, if written.
 std::vector<std::string> write_scene(const StudyFiles& files, const scene::Scene& scene, Writing& writing);
 
-/// Returns the names of all files that write_figures() may write.
+/// Returns the names of all files that figures may have.
 std::vector<std::string> figure_names(const StudyFiles& files,
-                                      const std::vector<results::FigureData>& figures);
+                                      const std::vector<results::FigureData>& figures,
+                                      const output::FigureOptions& options);
 
 /// Figures that were drawn, and why others were not, in a sentence for the user.
 struct DrawnFigures {
-  std::vector<std::string> paths;
-  std::string problem;
+  std::vector<std::string> paths{};
+  std::string problem{};
 };
-DrawnFigures write_figures(const StudyFiles& files, const std::vector<results::FigureData>& figures,
-                           Writing& writing);
+
+/// The figures of a study, drawn while the next one is computed.
+class FiguresOfStudy {
+ public:
+  /// Writes their data and starts to draw them.
+  FiguresOfStudy(const StudyFiles& files, const std::vector<results::FigureData>& figures,
+                 const output::FigureOptions& options, Writing& writing);
+
+  /// Waits for them.
+  DrawnFigures finish(Writing& writing);
+
+ private:
+  std::string what_;
+  std::unique_ptr<output::DrawingFigures> drawing_{};  // null: nothing is drawn
+  DrawnFigures drawn_{};
+};
 
 }  // namespace arcslip::app

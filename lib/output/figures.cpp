@@ -1,12 +1,12 @@
 #include <arcslip/output/figures.hpp>
 
+#include <arcslip/figures/layout.hpp>
 #include <arcslip/output/atomic_file.hpp>
 #include <arcslip/output/gnuplot_script.hpp>
-#include <arcslip/output/process.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <string_view>
 
@@ -15,8 +15,8 @@
 namespace arcslip::output {
 namespace {
 
+using results::Figure;
 using results::FigureData;
-using results::FigureLine;
 
 constexpr std::chrono::seconds least_time{60};           // for gnuplot
 constexpr std::chrono::microseconds time_of_point{100};  // more for each point of each figure
@@ -36,16 +36,22 @@ bool is_whole(const std::string& path, std::string_view ending) {
   return file && tail.find(ending) != std::string::npos;
 }
 
-/// Time limit of gnuplot, which draws tens of thousands of points per second.
-std::chrono::milliseconds time_for(const FigureData& data, std::size_t figures) {
-  std::size_t points = 0;
-  for (const FigureLine& line : data.lines)
-    for (const auto& part : line.parts) points += part.size();
-  return least_time + std::chrono::duration_cast<std::chrono::milliseconds>(points * figures * time_of_point);
+/// The names of the images of each figure, without extension: NAME_FIGURE, shortened to a valid file name.
+std::vector<std::string> images_of(const FigureData& data, const std::string& name) {
+  std::vector<std::string> names;
+  if (data.lines.empty()) return names;
+  for (const results::FigureView& figure : data.figures) {
+    std::string own = name + "_" + file_name(figure.name);
+    if (std::find(names.begin(), names.end(), own) != names.end())  // differs only in what it cannot hold
+      own += "_" + std::to_string(names.size());
+    names.push_back(own);
+  }
+  return names;
 }
 
-std::vector<std::string> images_of(const FigureData& data, const std::string& stem) {
-  return data.lines.empty() ? std::vector<std::string>() : image_names(data, stem);
+/// How an image that is whole ends.
+std::string_view ending_of(const std::string& format) {
+  return format == "svg" ? "</svg>" : format == "png" ? "IEND" : "%%EOF";
 }
 
 /// Of the images while gnuplot draws them.
@@ -94,61 +100,92 @@ std::string file_name(const std::string& name) {
   return result.empty() || result.front() == '-' ? "_" + result : result;
 }
 
-std::vector<std::string> figure_files(const FigureData& data, const std::string& name) {
+std::vector<std::string> figure_files(const FigureData& data, const std::string& name,
+                                      const FigureOptions& options) {
   const std::string stem = file_name(name);
   std::vector<std::string> files = {stem + ".dat", stem + ".gp"};
   for (const std::string& image : images_of(data, stem))
-    for (const char* extension : {".svg", ".png"})
-      files.insert(files.end(), {image + extension, image + extension + temporary_suffix()});
+    for (const std::string& format : options.formats)
+      files.insert(files.end(), {image + "." + format, image + "." + format + temporary_suffix()});
   return files;
 }
 
-Figures draw_figures(const FigureData& data, const std::string& folder, const std::string& name,
-                     const control::Control& control) {
-  const std::string stem = file_name(name);
-  const std::string base = folder_prefix(folder);
-  const std::vector<std::string> images = images_of(data, stem);
-
-  Figures result;
-  result.sources = {base + stem + ".dat", base + stem + ".gp"};
-  write_file(result.sources[0], [&](std::ostream& out) { write_figure_data(out, data); });
-  write_file(result.sources[1], [&](std::ostream& out) { write_gnuplot_script(out, data, stem, images); });
-  if (images.empty()) {
-    result.problem = "no figure was drawn: there are no points";
-    return result;
-  }
-  const std::string interrupted =
-      "interrupted before the figures were drawn; the data and the script were "
-      "written: run gnuplot -d " +
-      stem + ".gp in " + folder;
-  if (!control.keep_going()) {
-    result.problem = interrupted;
-    return result;
-  }
-
+DrawingFigures::DrawingFigures(std::span<const NamedFigures> all, std::string folder, FigureOptions options,
+                               const control::Control& control)
+    : folder_(std::move(folder)), options_(std::move(options)), control_(control) {
+  for (const NamedFigures& of : all) write_sources(of);
+  if (images_.empty() || options_.formats.empty() || !control_.keep_going()) return;
+  time_ = least_time + std::chrono::duration_cast<std::chrono::milliseconds>(points_ * time_of_point);
   // gnuplot writes to temporary names; complete images are renamed.
-  const std::string suffix = temporary_suffix();
-  const auto time = time_for(data, images.size());
-  const ProcessResult run =
-      run_program("gnuplot", {"-d", "-e", "suffix='" + suffix + "'", stem + ".gp"}, folder, {control, time});
-  bool all_whole = run.end == ProcessEnd::by_itself && run.exit_code == 0;
-  for (const std::string& image : images) {
-    for (const auto& [extension, ending] : {std::pair{".svg", "</svg>"}, std::pair{".png", "IEND"}}) {
-      const std::string path = base + image + extension;
-      const std::string temporary = path + suffix;
-      if (run.exit_code == 0 && is_whole(temporary, ending) &&
+  std::vector<std::string> arguments = {"-d", "-e", "suffix='" + temporary_suffix() + "'"};
+  for (std::size_t i = 1; i < result_.sources.size(); i += 2)
+    arguments.push_back(std::filesystem::path(result_.sources[i]).filename().string());
+  run_ = std::async(std::launch::async, [arguments = std::move(arguments), where = folder_,
+                                         limits = ProcessLimits{control_, time_}] {
+    return run_program("gnuplot", arguments, where, limits);
+  });
+}
+
+/// Writes the data and the script of some curves, and adds what they draw.
+void DrawingFigures::write_sources(const NamedFigures& of) {
+  const std::string stem = file_name(of.name), base = folder_prefix(folder_);
+  const std::vector<Figure> figures = figures::figures_of(of.data, options_.style);
+  const std::vector<std::string> images = images_of(of.data, stem);
+  const std::string data = base + stem + ".dat", script = base + stem + ".gp";
+  write_file(data, [&](std::ostream& out) { write_figure_data(out, figures); });
+  result_.sources.push_back(data);
+  write_file(script, [&](std::ostream& out) {
+    write_gnuplot_script(out, figures, stem, images, options_.formats, options_.style);
+  });
+  result_.sources.push_back(script);
+  if (images.empty()) result_.problem = "no figure was drawn: there are no points";
+  for (const Figure& figure : figures)
+    for (const results::FigureCurve& curve : figure.curves) points_ += curve.x.size();
+  images_.insert(images_.end(), images.begin(), images.end());
+  scripts_ += (scripts_.empty() ? "" : " ") + stem + ".gp";
+}
+
+/// Renames the images of gnuplot that are whole, and removes others. Returns whether all are.
+bool DrawingFigures::take_images(bool has_drawn) {
+  bool all_whole = has_drawn;
+  for (const std::string& image : images_)
+    for (const std::string& format : options_.formats) {
+      const std::string path = folder_prefix(folder_) + image + "." + format,
+                        temporary = path + temporary_suffix();
+      if (has_drawn && is_whole(temporary, ending_of(format)) &&
           std::rename(temporary.c_str(), path.c_str()) == 0) {
-        result.images.push_back(path);
+        result_.images.push_back(path);
       } else {
         std::remove(temporary.c_str());
         all_whole = false;
       }
     }
+  return all_whole;
+}
+
+Figures DrawingFigures::finish() {
+  if (images_.empty() || options_.formats.empty()) return std::move(result_);
+  const std::string interrupted =
+      "interrupted before the figures were drawn; the data and the script were "
+      "written: run gnuplot -d " +
+      scripts_ + " in " + folder_;
+  if (!run_.valid()) {
+    result_.problem = interrupted;
+    return std::move(result_);
   }
-  if (!all_whole)
-    result.problem =
-        run.end == ProcessEnd::stopped ? interrupted : problem_of(run, folder, stem + ".gp", time);
-  return result;
+  const ProcessResult run = run_.get();
+  const bool has_ended = run.end == ProcessEnd::by_itself && run.exit_code == 0;
+  const bool all_whole = take_images(run.exit_code == 0);
+  if (!has_ended || !all_whole)
+    result_.problem =
+        run.end == ProcessEnd::stopped ? interrupted : problem_of(run, folder_, scripts_, time_);
+  return std::move(result_);
+}
+
+Figures draw_figures(const FigureData& data, const std::string& folder, const std::string& name,
+                     const FigureOptions& options, const control::Control& control) {
+  const NamedFigures one{name, data};
+  return DrawingFigures({&one, 1}, folder, options, control).finish();
 }
 
 }  // namespace arcslip::output

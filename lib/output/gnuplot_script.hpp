@@ -4,23 +4,21 @@
 #include <arcslip/results/figure.hpp>
 
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace arcslip::output {
 
-/// The names of the images of each figure, without .svg and .png: NAME_FIGURE, shortened to a valid
-/// file name.
-std::vector<std::string> image_names(const results::FigureData& data, const std::string& name);
+/// For each figure and each of its curves an indexed block with its stable points and one with its unstable
+/// ones, then one for each of its marks, then one for each fill, its strips apart. Empty blocks are omitted.
+void write_figure_data(std::ostream& out, std::span<const results::Figure> figures);
 
-/// For each line an indexed block with its points, then one for each kind of its marks, in the order of
-/// results/event_kinds.hpp. Empty blocks are omitted. Then a block for each area of each figure, its strips
-/// apart.
-void write_figure_data(std::ostream& out, const results::FigureData& data);
-
-/// A script that draws NAME.dat as these images, each as SVG and PNG. It runs on its own ("gnuplot NAME.gp");
-/// a variable `suffix` set before is appended to the names of the images.
-void write_gnuplot_script(std::ostream& out, const results::FigureData& data, const std::string& name,
-                          const std::vector<std::string>& images);
+/// A script that draws NAME.dat as these images, one for each figure, in these formats (svg, png, pdf). It
+/// runs on its own ("gnuplot NAME.gp"); a variable `suffix` set before is appended to the names of the
+/// images.
+void write_gnuplot_script(std::ostream& out, std::span<const results::Figure> figures,
+                          const std::string& name, const std::vector<std::string>& images,
+                          const std::vector<std::string>& formats, const results::FigureStyle& style);
 
 }  // namespace arcslip::output

@@ -1,7 +1,7 @@
 #pragma once
 // What a page shows, as data.
 
-#include <arcslip/results/figure.hpp>
+#include <arcslip/results/figure_data.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/results/shown.hpp>
 #include <arcslip/scene/scene.hpp>

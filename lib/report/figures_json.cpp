@@ -1,3 +1,4 @@
+#include <arcslip/figures/layout.hpp>
 #include <arcslip/report/parts.hpp>
 
 #include <arcslip/results/json_writer.hpp>
@@ -49,8 +50,10 @@ const char* name(results::Scale scale) {
 }
 
 std::string column_json(const results::FigureColumn& column) {
-  return "{\"label\":" + json_quoted(column.label) + ",\"scale\":\"" + name(column.scale) +
-         "\",\"lower\":" + number(column.range.lower, drawn_digits) +
+  const results::PrefixedUnit in = figures::unit_of(column);
+  return "{\"label\":" + json_quoted(results::with_unit(column.words, in.unit)) +
+         (in.factor != 1 ? ",\"factor\":" + results::shortest(in.factor) : "") + ",\"scale\":\"" +
+         name(column.scale) + "\",\"lower\":" + number(column.range.lower, drawn_digits) +
          ",\"upper\":" + number(column.range.upper, drawn_digits) +
          (column.has_axis ? "" : ",\"pointOnly\":true") + (column.is_frequency ? ",\"frequency\":true" : "") +
          "}";
@@ -105,6 +108,7 @@ std::string line_json(const FigureLine& line, const std::vector<int>& digits_of,
         "{\"unstable\":" + std::string(i < line.unstable.size() && line.unstable[i] ? "true" : "false") +
         ",\"columns\":" + columns_of(line.parts[i], digits_of) + "}";
   return "{\"label\":" + json_quoted(line.label) + ",\"heading\":" + json_quoted(line.heading) +
+         (line.is_main ? ",\"main\":true" : "") +
          ",\"set\":" + list_of(line.set, [](const auto& value) { return results::shortest(value.second); }) +
          ",\"parts\":" + parts + "],\"marks\":" +
          list_of(line.marks, [&](const FigureMark& mark) { return mark_json(mark, kinds, rows); }) +
@@ -127,9 +131,13 @@ std::string area_json(const FigureArea& area) {
          "}";
 }
 
-std::string figure_json(const results::Figure& figure) {
+std::string figure_json(const FigureData& data, const results::FigureView& figure) {
+  const std::string x_unit = figures::unit_of(data.columns[figure.x]).unit,
+                    y_unit = figure.areas.empty() ? figures::unit_of(data.columns[figure.y]).unit
+                                                  : results::y_unit(data, figure);
   return "{\"x\":" + std::to_string(figure.x) + ",\"y\":" + std::to_string(figure.y) +
-         ",\"xLabel\":" + json_quoted(figure.x_label) + ",\"yLabel\":" + json_quoted(figure.y_label) +
+         ",\"xLabel\":" + json_quoted(results::with_unit(results::x_words(data, figure), x_unit)) +
+         ",\"yLabel\":" + json_quoted(results::with_unit(results::y_words(data, figure), y_unit)) +
          ",\"areas\":" + list_of(figure.areas, area_json) + "}";
 }
 
@@ -147,13 +155,14 @@ std::string figures_json(const StudyContents& study, const std::vector<FigureDat
     std::vector<int> digits_of;
     for (const results::FigureColumn& column : data.columns)
       digits_of.push_back(column.has_axis ? drawn_digits : point_digits);
-    const std::vector<results::EventKind> kinds = mark_kinds(data);
+    const std::vector<results::EventKind> kinds = figures::mark_kinds(data);
     return "{\"parameters\":" + list_of(data.parameters, json_quoted) +
            ",\"columns\":" + list_of(data.columns, column_json) + ",\"kinds\":" + list_of(kinds, kind_json) +
            ",\"lines\":" +
            list_of(data.lines,
                    [&](const FigureLine& line) { return line_json(line, digits_of, kinds, rows); }) +
-           ",\"figures\":" + list_of(data.figures, figure_json) + "}\n";
+           ",\"figures\":" +
+           list_of(data.figures, [&](const auto& figure) { return figure_json(data, figure); }) + "}\n";
   });
 }
 

@@ -1,7 +1,5 @@
 #include <arcslip/report/parts.hpp>
 
-#include <algorithm>
-
 namespace arcslip::report {
 
 Outline outline(results::Shape shape) {
@@ -46,14 +44,6 @@ Outline outline(results::Shape shape) {
       return {pentagon, true};
   }
   return {};
-}
-
-std::vector<results::EventKind> mark_kinds(const results::FigureData& data) {
-  std::vector<results::EventKind> kinds;
-  for (const results::FigureLine& line : data.lines)
-    for (const results::FigureMark& mark : line.marks)
-      if (std::find(kinds.begin(), kinds.end(), mark.kind) == kinds.end()) kinds.push_back(mark.kind);
-  return kinds;
 }
 
 }  // namespace arcslip::report

@@ -102,12 +102,13 @@ void write_figures(Html& html, std::size_t study, const std::vector<results::Fig
         continue;
       }
       ++shown;
-      const results::Figure& figure = all[d].figures[f];
+      const results::FigureView& figure = all[d].figures[f];
       html.open("figure", {{"class", "curve"},
                            {"data-study", std::to_string(study)},
                            {"data-data", std::to_string(d)},
                            {"data-figure", std::to_string(f)}});
-      html.element("figcaption", figure.y_label + " over " + figure.x_label);
+      html.element("figcaption",
+                   results::y_words(all[d], figure) + " over " + results::x_words(all[d], figure));
       write_plain_curve(html, all[d], figure);
       html.close();
     }

@@ -3,7 +3,7 @@
 
 #include <arcslip/report/contents.hpp>
 #include <arcslip/report/html.hpp>
-#include <arcslip/results/figure.hpp>
+#include <arcslip/results/figure_data.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <iosfwd>
@@ -49,30 +49,8 @@ void write_results(Html& html, const StudyContents& study, const std::string& ro
 /// The optimum in words: where it is, within which range, and what is known about it.
 void write_optimum(Html& html, const Search& search);
 
-/// A tick of an axis; an empty label: a line without a number.
-struct Tick {
-  double value;
-  std::string label;
-};
-
-/// An axis of a plain drawing.
-class PlainAxis {
- public:
-  /// From one place of the drawing to another one. fills: the values of the column fill it, without room.
-  PlainAxis(const results::FigureColumn& column, bool fills, double from, double to);
-
-  bool shows(double value) const;
-  double place(double value) const;
-  std::vector<Tick> ticks() const;
-
- private:
-  results::Range range_;
-  bool logarithmic_;
-  double from_, to_;
-};
-
 /// A figure as a plain drawing, with a key.
-void write_plain_curve(Html& html, const results::FigureData& data, const results::Figure& figure);
+void write_plain_curve(Html& html, const results::FigureData& data, const results::FigureView& view);
 
 /// The outline of a mark around the origin, as a path, and whether it is filled.
 struct Outline {
@@ -80,9 +58,6 @@ struct Outline {
   bool is_filled = false;
 };
 Outline outline(results::Shape shape);
-
-/// The kinds of the marks of a figure that have a shape, each once.
-std::vector<results::EventKind> mark_kinds(const results::FigureData& data);
 
 /// The class of a line in a drawing, by which it has its colour.
 std::string line_class(std::size_t line, std::size_t lines);

@@ -2,7 +2,7 @@
 // The results of a run as one page for people, in HTML: doubts first, the scene, tables, curves. It needs no
 // network, and shows its tables and plain curves without scripts.
 
-#include <arcslip/results/figure.hpp>
+#include <arcslip/results/figure_data.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/scene.hpp>
 

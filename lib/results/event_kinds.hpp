@@ -22,7 +22,7 @@ inline constexpr EventKind peak{
 inline constexpr EventKind fold{
     "fold",
     "fold",
-    {.shape = Shape::square, .size = 1, .line_width = 1.5, .labelled = false},
+    {.shape = Shape::square, .size = 1.5, .line_width = 1.5, .labelled = false},
     "the branch or curve turns in the frequency, or in the parameter that it is over",
     "responses, curves, modes"};
 inline constexpr EventKind maximum{

@@ -1,88 +1,105 @@
 #pragma once
-// Figures as data, independent of the program that draws them.
+// A figure as a value: what stands where, in which colour and with which words. Programs and libraries that
+// draw follow it and decide nothing.
 
 #include <arcslip/results/event_kind.hpp>
+#include <arcslip/results/figure_data.hpp>
 
-#include <array>
 #include <cstddef>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 namespace arcslip::results {
 
-struct Range {
-  double lower = 0, upper = 0;
+/// How figures look.
+struct FigureStyle {
+  int width = 800, height = 500;  // pixels of 1/96 inch; of PNG one and a half times as many
+  bool is_grey = false;           // shades of grey in place of colours
 };
 
-enum class Scale { linear, logarithmic, percent };
-
-/// A quantity of every point, with its axis.
-struct FigureColumn {
-  std::string label;  // "frequency (Hz)"
-  Scale scale = Scale::linear;
-  Range range{};              // of the values that the scale can show; lower > upper: none
-  bool has_axis = true;       // false: shown at a point alone, and in no file of data
-  bool is_frequency = false;  // of the excitation, whose multiples mean something
+/// A tick of an axis, in its unit; an empty label: a line without a number.
+struct FigureTick {
+  double value;
+  std::string label;
 };
 
-using Record = std::vector<double>;  // a value for each column, NaN if missing
+/// Numbers of a figure are those of the data; the axis shows `factor` times as much.
+struct FigureAxis {
+  std::string label{};  // "amplitude (mm)"
+  double factor = 1;    // 1000
+  Range range{};        // as it is shown
+  bool logarithmic = false;
+  std::vector<FigureTick> ticks{};
 
-struct FigureMark {
+  /// Whether a number of the data has a place on the axis.
+  bool shows(double value) const;
+  /// The place of a number of the data, from 0 to 1.
+  double place(double value) const;
+};
+
+/// A part of a curve.
+struct FigureStretch {
+  std::size_t first = 0, count = 0;
+  bool unstable = false;  // drawn dashed
+};
+
+struct FigureCurve {
+  std::string name{};     // "3 N"; empty: the only one
+  std::string heading{};  // "damper.normal_load = 3 N"
+  std::string colour{};   // "#0d0887"
+  double width = 2;
+  std::size_t line = 0;  // of the data
+  std::vector<double> x{}, y{};
+  std::vector<FigureStretch> stretches{};
+};
+
+/// Marks of a kind on a curve that lie on each other are one, with their count.
+struct FigureSymbol {
   EventKind kind;
-  Record record;
-  std::string label{};  // empty: that of its line
+  std::string colour;
+  std::size_t line = 0;
+  double x = 0, y = 0;
+  std::size_t count = 1;
 };
 
-/// A range of column 0 that is shaded in the figures over it.
-struct FigureBand {
-  std::string label;  // "within 5 %"
-  Range range;
+/// A text next to a place.
+struct FigureText {
+  std::string text, colour;
+  double x = 0, y = 0;
+  double right = 0, up = 0;  // from there, in characters and lines
+  int alignment = 0;         // -1: it ends there, 0: its middle is there, 1: it begins there
 };
 
-/// One line of a figure: the results with the same set parameters.
-struct FigureLine {
-  std::string label{};                                // "3 N", or "3 N, 0.1 N s/m"
-  std::string heading{};                              // in the data: "damper.normal_load = 3 N, ..."
-  std::vector<std::pair<std::string, double>> set{};  // the parameters
-  std::vector<std::vector<Record>> parts{};           // drawn separately
-  std::vector<bool> unstable{};                       // of each part: it is drawn dashed; empty: not known
-  std::vector<FigureMark> marks{};
-  bool unbounded = false;           // somewhere, outside what is drawn
-  std::vector<FigureBand> bands{};  // the widest first
+/// What is filled between two curves over x, each strip apart. A band that spans the axis has infinite ends.
+struct FigureFill {
+  std::string name, colour;
+  double opacity = 1;
+  std::size_t line = 0;                       // of the data; of areas the rank of their kind
+  std::vector<std::vector<Record>> strips{};  // records {x, lower, upper}
 };
 
-/// The kinds of areas that are drawn, in the order of the key.
-inline constexpr std::array<std::string_view, 8> area_kinds = {"stick", "slip",   "slip+",   "slip-",
-                                                               "open",  "closed", "closed+", "closed-"};
-
-/// Strips of a plane that are filled: of each, at some x, its lower and its upper end.
-struct FigureArea {
-  std::string kind;
-  std::vector<std::vector<Record>> strips;  // records {x, lower, upper}
+/// An entry of the key.
+struct FigureKeyEntry {
+  enum class Of { curve, unstable, mark, fill };
+  Of of;
+  std::string text{}, colour{};
+  std::size_t line = 0;  // of curves; of areas the rank of their kind
+  EventKind kind{};      // of marks
+  double opacity = 1;    // of fills
 };
 
-/// One column over another, both counted from 0; or areas over column x and an angle, 0 to 360 degrees.
 struct Figure {
-  std::string name;  // "amplitude"
-  std::size_t x = 0, y = 1;
-  std::string x_label{}, y_label{};  // "amplitude (m)"
-  std::vector<FigureArea> areas{};   // in place of the lines
+  std::string name{};  // "amplitude"
+  std::string title{};
+  std::string note{};  // what it shows in place of all curves; empty: it shows them
+  FigureAxis x{}, y{};
+  std::vector<FigureFill> fills{};
+  bool are_areas = false;  // the fills are contact states, which stand before the grid
+  std::vector<FigureCurve> curves{};
+  std::vector<FigureSymbol> symbols{};
+  std::vector<FigureText> texts{};
+  std::vector<std::string> key_title{};  // lines
+  std::vector<FigureKeyEntry> key{};
 };
-
-/// The data of figures with the same lines.
-struct FigureData {
-  std::string name{};  // distinguishes it from others of the same results; usually ""
-  std::string title;
-  std::vector<std::string> parameters{};  // that distinguish the lines, by name
-  std::vector<FigureColumn> columns{};
-  std::vector<FigureLine> lines{};
-  std::vector<Figure> figures{};  // none: nothing is drawn
-};
-
-/// The range of all finite values of a column above a bound; lower > upper if there are none.
-Range range_of(const FigureData& data, std::size_t column, double above);
-Range full_range(const FigureData& data, std::size_t column);
 
 }  // namespace arcslip::results

@@ -118,8 +118,8 @@ std::string series(const Trial& trial) {
 std::vector<results::FigureData> accuracy_figures(const scene::Scene& scene, std::span<const Accuracy> all) {
   results::FigureData data;
   data.title = scene.title;
-  data.columns = {{"time for a point (s)", results::Scale::logarithmic},
-                  {"relative error of the highest peak", results::Scale::logarithmic}};
+  data.columns = {{"time for a point", "s", results::Scale::logarithmic},
+                  {"relative error of the highest peak", "", results::Scale::logarithmic}};
   for (const Accuracy& found : all) {
     std::vector<std::pair<std::string, std::vector<Record>>> lines;
     std::vector<std::vector<results::FigureMark>> marks;
@@ -136,7 +136,7 @@ std::vector<results::FigureData> accuracy_figures(const scene::Scene& scene, std
       auto& [label, points] = lines[i];
       std::sort(points.begin(), points.end());
       if (data.parameters.empty()) {
-        for (const auto& [name, value] : found.set) data.parameters.push_back(label_of(scene, name));
+        for (const auto& [name, value] : found.set) data.parameters.push_back(words_of(scene, name));
         data.parameters.emplace_back("method");
       }
       results::FigureLine line = line_of(scene, found.set);
@@ -147,7 +147,7 @@ std::vector<results::FigureData> accuracy_figures(const scene::Scene& scene, std
     }
   }
   for (std::size_t i = 0; i < data.columns.size(); ++i) data.columns[i].range = results::range_of(data, i, 0);
-  data.figures = {{"accuracy", 0, 1, data.columns[0].label, data.columns[1].label}};
+  data.figures = {{"accuracy", 0, 1}};
   return {data};
 }
 

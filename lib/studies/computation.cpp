@@ -3,6 +3,7 @@
 #include <arcslip/control/ordered_parallel_for.hpp>
 #include <arcslip/studies/highest_harmonic.hpp>
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <set>
@@ -199,7 +200,9 @@ std::vector<results::FigureData> run_computation(const scene::Scene& scene, cons
       [&](const Case& at, const control::Control& of_case) { return compute(computation, at, of_case); },
       options.control, take);
   if (!options.figures || taken > scene::most_drawn) return {};
-  return computation.figures(std::move(kept));
+  std::vector<results::FigureData> figures = computation.figures(std::move(kept));
+  if (options.receptance) std::for_each(figures.begin(), figures.end(), results::add_receptance);
+  return figures;
 }
 
 }  // namespace arcslip::studies

@@ -2,7 +2,7 @@
 // A study over the combinations of its for_each lists, and over the orders of the harmonics of each.
 
 #include <arcslip/control/run_control.hpp>
-#include <arcslip/results/figure.hpp>
+#include <arcslip/results/figure_data.hpp>
 #include <arcslip/results/result.hpp>
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/scene/scene.hpp>

@@ -256,13 +256,14 @@ std::vector<results::FigureData> sweep_figures(const scene::Scene& scene,
                                                std::span<const FrequencySweep> sweeps) {
   results::FigureData data;
   data.title = scene.title;
-  data.columns = {{results::with_unit(label_of(scene, "frequency"), scene::unit_name(scene.frequency_unit))},
-                  {results::with_unit(label_of(scene, "amplitude"), "m")},
-                  {"period (of the excitation's)"}};
+  data.columns = {
+      {.words = label_of(scene, "frequency"), .unit = std::string(scene::unit_name(scene.frequency_unit))},
+      {.words = label_of(scene, "amplitude"), .unit = "m", .is_amplitude = true},
+      {.words = "period (of the excitation's)"}};
   for (const FrequencySweep& sweep : sweeps) {
     if (sweep.points.empty()) continue;
     if (data.parameters.empty()) {
-      for (const auto& [name, value] : sweep.set) data.parameters.push_back(label_of(scene, name));
+      for (const auto& [name, value] : sweep.set) data.parameters.push_back(words_of(scene, name));
       data.parameters.emplace_back("sweep");
     }
     data.lines.push_back(line_of_sweep(scene, sweep));
@@ -272,7 +273,7 @@ std::vector<results::FigureData> sweep_figures(const scene::Scene& scene,
     data.columns[1].scale = results::Scale::logarithmic;  // as that of frequency responses
     data.columns[1].range = positive;
   }
-  data.figures = {{"amplitude", 0, 1, data.columns[0].label, data.columns[1].label}};
+  data.figures = {{"amplitude", 0, 1}};
   return {data};
 }
 

@@ -56,6 +56,26 @@ void add_tolerances(const scene::Scene& scene, std::span<const OptimumResult> re
   }
 }
 
+// Draws the response of the optimum before those of other designs, and says which one it is.
+void name_optimum(std::span<const OptimumResult> results, results::FigureData& data) {
+  const auto is_optimum = [&](const results::FigureLine& line) {
+    return std::any_of(results.begin(), results.end(), [&](const OptimumResult& result) {
+      auto set = result.set;
+      for (std::size_t i = 0; i < result.problem.over.size() && i < result.optimum.design.size(); ++i)
+        set.emplace_back(result.problem.over[i].name, result.optimum.design[i]);
+      return std::equal(set.begin(), set.end(), line.set.begin(), line.set.end(), [](auto& a, auto& b) {
+        return a.first == b.first && to_four_digits(a.second) == to_four_digits(b.second);
+      });
+    });
+  };
+  if (std::all_of(data.lines.begin(), data.lines.end(), is_optimum)) return;
+  for (results::FigureLine& line : data.lines)
+    if (is_optimum(line)) {
+      line.is_main = true;
+      line.label += ", optimum";
+    }
+}
+
 // A line for each case that has a curve, whatever the cases set.
 struct CaseLines {
   results::FigureData data;
@@ -104,7 +124,7 @@ CaseLines lines_of_cases(const scene::Scene& scene, studies::BranchKind kind, co
   if (!result.set.empty()) data.title = studies::assignment(scene, result.set) + ": " + data.title;
   const bool alike = std::all_of(names.begin(), names.end(), [&](auto& own) { return own == names[0]; });
   if (alike && !names.empty())
-    for (const std::string& own : names.front()) data.parameters.push_back(studies::label_of(scene, own));
+    for (const std::string& own : names.front()) data.parameters.push_back(studies::words_of(scene, own));
   for (std::size_t i = 0; !alike && i < data.lines.size(); ++i)  // no common title: each line with names
     data.lines[i].label = case_text(scene, problem, found.cases[i]);
   return found;
@@ -136,6 +156,7 @@ void add_criterion(const scene::Scene& scene, const OptimumResult& result, CaseL
   double sum = 0;
   for (const LoadCaseResult& each : lines.cases) sum += each.weight;
   results::FigureLine criterion;
+  criterion.is_main = true;
   const std::string best = value_label(scene, result.problem, result.optimum.design[0]);
   criterion.label = (mean ? "mean, least at " : "worst, least at ") + best;
   auto& curve = criterion.parts.emplace_back();
@@ -180,9 +201,9 @@ void add_cases(const scene::Scene& scene, const OptimumResult& result, const std
     add_criterion(scene, result, of_peaks);
     if (weighted) {
       const std::size_t amplitude = studies::amplitude_column(studies::BranchKind::peaks);
-      peaks.columns[amplitude].label = studies::label_of(scene, "amplitude") + " times weight (m)";
-      for (results::Figure& figure : peaks.figures)
-        if (figure.y == amplitude) figure.y_label = "peak " + peaks.columns[amplitude].label;
+      peaks.columns[amplitude].words += " times weight";
+      for (results::FigureView& figure : peaks.figures)
+        if (figure.y == amplitude) figure.y_words = "peak " + peaks.columns[amplitude].words;
     }
     add_figure(std::move(peaks), name, all);
   }
@@ -213,7 +234,9 @@ std::vector<results::FigureData> figures_of(const scene::Scene& scene,
   results::FigureData peaks = studies::figures_of(scene, studies::BranchKind::peaks, curves);
   add_tolerances(scene, results, peaks);
   add_figure(std::move(peaks), "", all);
-  add_figure(studies::figures_of(scene, studies::BranchKind::responses, responses), "responses", all);
+  results::FigureData of_responses = studies::figures_of(scene, studies::BranchKind::responses, responses);
+  name_optimum(results, of_responses);
+  add_figure(std::move(of_responses), "responses", all);
   return all;
 }
 
@@ -258,10 +281,8 @@ results::FigureData figure_of(const scene::Scene& scene, const OptimumCurveResul
   }
   for (std::size_t i = 0; i < line.parts[0].size(); ++i) add(line.parts[0][i], result.curve.points[i]);
   for (const DesignVariable& v : result.problem.over) {
-    const std::string label =
-        results::with_unit(studies::label_of(scene, v.name), studies::parameter_unit(scene, v.name));
-    data.figures.push_back({v.name, 0, data.columns.size(), data.columns[0].label, label});
-    data.columns.push_back({label});
+    data.figures.push_back({v.name, 0, data.columns.size()});
+    data.columns.push_back({studies::words_of(scene, v.name), studies::axis_unit(scene, v.name)});
   }
   return data;
 }

@@ -2,7 +2,7 @@
 // Figures of optima and of curves of optima, as data.
 
 #include <arcslip/optimize/study/optimum_study.hpp>
-#include <arcslip/results/figure.hpp>
+#include <arcslip/results/figure_data.hpp>
 
 #include <span>
 #include <vector>

@@ -102,13 +102,14 @@ TEST_CASE("a study of kind optimum runs with the others, with files and figures"
   CHECK(summary.find("study,kind,force.cosine (N),search,status,") == 0);
   CHECK(summary.find(",optimum.damper.normal_load (N),optimum.amplitude (m),") != std::string::npos);
   CHECK(summary.find("\r\nbest load,optimum,2,2,complete,") != std::string::npos);
-  const std::string script = place.read("out/best_load.gp");
+  const std::string data = place.read("out/best_load.dat");
   for (const Json& each : json["optima"])
     for (const Json& range : each["certificate"]["ranges"]["damper.normal_load"]) {
-      const std::string band = "set object rectangle from " + range["lower"].dump() + ", graph 0 to " +
-                               range["upper"].dump() + ", graph 1 behind";
-      CAPTURE(band);
-      CHECK(script.find(band) != std::string::npos);
+      const std::string from = "\n" + range["lower"].dump() + " ", to = "\n" + range["upper"].dump() + " ";
+      CAPTURE(from, to);
+      const auto begin = data.find(from);
+      CHECK(begin != std::string::npos);
+      CHECK(data.find(to, begin) == data.find('\n', begin + 1));
     }
   if (std::system("gnuplot --version >/dev/null 2>&1") == 0) {
     const auto files = place.files();

@@ -151,7 +151,7 @@ TEST_CASE("cases of each level have figures of their own, with a line for each c
   }
   const std::string script = place.read("out/levels_1.gp");
   for (const char* part : {"title '1 N' ", "title '2 N, times 0.5' ", "title 'worst, least at ",
-                           "'peak amplitude times weight (m)'", "set title 'k.value = 17890 N/m: Blade"}) {
+                           "'peak amplitude times weight (mm)'", "set title 'k.value = 17890 N/m: Blade"}) {
     CAPTURE(part);
     CHECK(script.find(part) != std::string::npos);
   }

@@ -48,12 +48,13 @@ set(studies/presentation control results scene laws model observables analyses/m
 set(studies control results scene scene/keys laws/memoryless laws/hysteresis laws/contact stability observables
     analyses/branches analyses/responses analyses/curves analyses/modes_and_time studies/presentation studies)
 set(ensemble control results sampling scene scene/keys scene/format studies ensemble)
-set(output control results output)
-set(report results sampling scene report)
+set(figures results figures)
+set(output control results figures output)
+set(report results sampling scene figures report)
 set(structures ${continuation} control results sampling scene scene/keys scene/files scene/format fourier formula laws laws/memoryless
     laws/hysteresis laws/contact structure model hbm/linear hbm time/equation time/event_driven time/newmark
     time/periodic stability observables analyses/branches analyses/responses analyses/curves analyses/modes_and_time
-    studies/presentation studies ensemble output report)
+    studies/presentation studies ensemble figures output report)
 
 set(optimize/nlopt ${structures} optimize/nlopt)
 set(optimize/peaks ${structures} optimize/nlopt optimize/peaks)

@@ -24,6 +24,12 @@ function scaleOf(column, fills, range) {
   return scale.domain(paddedRange(column, fills)).range(range);
 }
 
+// The scale in the unit of the axis, which has a prefix.
+function inUnit(scale, column) {
+  const factor = column.factor || 1;
+  return scale.copy().domain(scale.domain().map(value => value * factor));
+}
+
 const superscripts = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
 function powerOfTen(exponent) {
@@ -48,7 +54,9 @@ function setTicks(axis, scale, isLogarithmic, count) {
   for (const exponent of exponents.filter((_, i) => i % every === 0)) {
     for (const factor of factors) values.push(factor * Math.pow(10, exponent));
   }
+  const isPlain = lower > 0.9e-3 && upper < 1.1e5;
   const format = value => {
+    if (isPlain) return shortNumber(value);
     const exponent = Math.floor(Math.log10(value) + 1e-9), factor = Math.round(value / Math.pow(10, exponent));
     return (factor === 1 ? "" : factor + "·") + powerOfTen(exponent);
   };

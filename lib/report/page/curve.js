@@ -48,8 +48,9 @@ function addAxes(svg, description) {
 
 function drawAxes(axes, x, y, columns) {
   const isLogarithmic = column => column.scale === "logarithmic";
-  const horizontal = () => setTicks(d3.axisBottom(x), x, isLogarithmic(columns.x), 7);
-  const vertical = () => setTicks(d3.axisLeft(y), y, isLogarithmic(columns.y), 6);
+  const along = inUnit(x, columns.x), upwards = inUnit(y, columns.y);
+  const horizontal = () => setTicks(d3.axisBottom(along), along, isLogarithmic(columns.x), 7);
+  const vertical = () => setTicks(d3.axisLeft(upwards), upwards, isLogarithmic(columns.y), 6);
   axes.x.call(horizontal().tickSizeOuter(0));
   axes.y.call(vertical().tickSizeOuter(0));
   axes.gridX.call(horizontal().tickSize(paper.top - paper.bottom).tickFormat(""));
@@ -124,7 +125,7 @@ class Curve {
     if (description.x === 0) addBands(this.moved, data, this.x0);
     this.outlines = data.lines.map((_, i) => this.places[i].map(part =>
       this.moved.append("path").datum(i).attr("d", outlineOf(part))
-        .attr("class", "line " + lineClass(i, data.lines.length) + (part.unstable ? " unstable" : "")).node()));
+        .attr("class", "line " + lineClass(i, data.lines.length) + (data.lines[i].main ? " main" : "") + (part.unstable ? " unstable" : "")).node()));
     this.front = clipped.append("g").attr("class", "figure-front");
     this.addMarks(clipped.append("g"));
     this.cursor = clipped.append("g").attr("class", "cursor");

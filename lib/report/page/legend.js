@@ -28,14 +28,10 @@ function parameterChoice(data, p) {
 
 // Turns the lines of a key into buttons.
 function bringToLife(key, data) {
-  const items = key.querySelectorAll("li");
-  const labelled = data.lines.map((_, i) => i).filter(i => data.lines[i].label !== "");
-  const step = Math.ceil(data.lines.length / 24);
-  const inKey = labelled.filter(i => i % step === 0);
   const buttons = [];
   if (data.lines.length > 1) {
-    inKey.forEach((line, k) => {
-      const item = items[k];
+    key.querySelectorAll("li[data-line]").forEach(item => {
+      const line = Number(item.dataset.line);
       const button = element("button", {type: "button", title: "show or hide; with the shift key, this one alone"},
                              ...item.childNodes);
       item.append(button);

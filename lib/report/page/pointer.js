@@ -65,8 +65,8 @@ class Pointer {
     const {data, description} = this.curve, {line, part, i} = this.at;
     const of = data.lines[line].parts[part];
     const columns = [...new Set([description.x, description.y, ...data.columns.keys()])].slice(0, mostValues);
-    const pairs = columns.map(c => [data.columns[c].label, of.columns[c][i]])
-      .filter(([, value]) => value !== null).map(([label, value]) => [label, shortNumber(value)]);
+    const pairs = columns.filter(c => of.columns[c][i] !== null)
+      .map(c => [data.columns[c].label, shortNumber(of.columns[c][i] * (data.columns[c].factor || 1))]);
     if (data.lines.some(each => each.parts.some(some => some.unstable))) pairs.push(["", of.unstable ? "unstable" : "stable"]);
     return pairs;
   }

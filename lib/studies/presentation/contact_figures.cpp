@@ -137,20 +137,18 @@ std::vector<FigureArea> areas_of(std::span<const ResponseBranch* const> branches
 
 }  // namespace
 
-std::vector<results::Figure> contact_figures(std::span<const ResponseBranch* const> branches,
-                                             const std::string& x_label,
-                                             const std::function<double(const ResponsePoint&)>& x) {
+std::vector<results::FigureView> contact_figures(std::span<const ResponseBranch* const> branches,
+                                                 const std::function<double(const ResponsePoint&)>& x) {
   std::map<std::size_t, std::string> contacts;  // by their index
   for (const ResponseBranch* branch : branches)
     for (const ResponsePoint& point : branch->points)
       for (std::size_t e = 0; e < point.elements.size(); ++e)
         if (is_drawn(point.elements[e])) contacts.emplace(e, point.elements[e].name);
-  std::vector<results::Figure> figures;
+  std::vector<results::FigureView> figures;
   for (const auto& [e, name] : contacts) {
     const bool alone = contacts.size() == 1;
     figures.push_back({.name = alone ? "contact" : "contact_" + name,
-                       .x_label = x_label,
-                       .y_label = (alone ? "" : name + ": ") + "angle of the period (degrees)",
+                       .y_words = (alone ? "" : name + ": ") + "angle of the period",
                        .areas = areas_of(branches, e, x)});
   }
   return figures;

@@ -53,7 +53,8 @@ using observables::ResponsePoint;
 
 // What a point has that no axis shows.
 struct Reported {
-  const char* label;
+  const char* words;
+  const char* unit;
   double (*value)(const ResponsePoint& point);
 };
 
@@ -71,7 +72,7 @@ struct Quantities {
 Quantities quantities_of(BranchKind kind, std::span<const ResponseBranch* const> branches) {
   Quantities all{contact_shares(branches), {}};
   if (kind != BranchKind::modes)
-    all.reported.push_back({"estimated error of the amplitude (m)",
+    all.reported.push_back({"estimated error of the amplitude", "m",
                             [](const ResponsePoint& point) { return point.truncation_estimate; }});
   const bool has_multipliers =
       std::any_of(branches.begin(), branches.end(), [](const ResponseBranch* branch) {
@@ -79,14 +80,14 @@ Quantities quantities_of(BranchKind kind, std::span<const ResponseBranch* const>
           return std::isfinite(largest_multiplier(point));
         });
       });
-  if (has_multipliers) all.reported.push_back({"largest multiplier (modulus)", largest_multiplier});
+  if (has_multipliers) all.reported.push_back({"largest multiplier (modulus)", "", largest_multiplier});
   return all;
 }
 
-using results::Figure;
 using results::FigureColumn;
 using results::FigureData;
 using results::FigureLine;
+using results::FigureView;
 using results::Range;
 using results::Record;
 using results::Scale;
@@ -129,38 +130,36 @@ void set_ranges(BranchKind kind, FigureData& data) {
 
 void set_columns(const scene::Scene& scene, BranchKind kind, const Quantities& quantities,
                  const std::string& over, FigureData& data) {
-  const FigureColumn amplitude{results::with_unit(label_of(scene, "amplitude"), "m")};
+  const FigureColumn amplitude{
+      .words = label_of(scene, "amplitude"), .unit = "m", .is_amplitude = kind != BranchKind::modes};
   if (kind == BranchKind::modes) data.columns.push_back(amplitude);
   if (kind != BranchKind::responses && kind != BranchKind::modes)
     data.columns.push_back(
-        {results::with_unit(label_of(scene, over), over.empty() ? "" : parameter_unit(scene, over))});
-  data.columns.push_back(
-      {results::with_unit(label_of(scene, "frequency"), scene::unit_name(scene.frequency_unit))});
-  data.columns.back().is_frequency = kind != BranchKind::modes;
+        {.words = words_of(scene, over), .unit = over.empty() ? "" : axis_unit(scene, over)});
+  data.columns.push_back({.words = label_of(scene, "frequency"),
+                          .unit = std::string(scene::unit_name(scene.frequency_unit)),
+                          .is_frequency = kind != BranchKind::modes});
   data.columns.push_back(kind == BranchKind::modes ? FigureColumn{"damping ratio"} : amplitude);
   for (const Share& share : quantities.shares)
-    data.columns.push_back({share.element + " " + share.state + " (%)", Scale::percent});
+    data.columns.push_back({share.element + " " + share.state, "%", Scale::percent});
   for (const Reported& report : quantities.reported)
-    data.columns.push_back({report.label, Scale::linear, {}, false});
+    data.columns.push_back({.words = report.words, .unit = report.unit, .has_axis = false});
 }
 
 /// A figure for each state of each contact, with its share on one of the axes.
-void add_share_figures(BranchKind kind, const std::vector<Share>& shares, const Figure& first,
+void add_share_figures(BranchKind kind, const std::vector<Share>& shares, const FigureView& first,
                        bool over_share, FigureData& data) {
   const std::size_t first_share_column = frequency_column(kind) + 2;
   for (std::size_t i = 0; i < shares.size(); ++i) {
     const Share& share = shares[i];
     const auto of_state = std::count_if(shares.begin(), shares.end(),
                                         [&](const Share& other) { return other.state == share.state; });
-    Figure figure = first;
+    FigureView figure = first;
     figure.name += share.state;
-    std::string& label = over_share ? figure.x_label : figure.y_label;
     (over_share ? figure.x : figure.y) = first_share_column + i;
-    label = share.state + " (% of the period)";
-    if (of_state > 1) {
-      figure.name += "_" + share.element;
-      label.insert(0, share.element + ": ");
-    }
+    (over_share ? figure.x_words : figure.y_words) =
+        (of_state > 1 ? share.element + ": " : "") + share.state + " of the period";
+    if (of_state > 1) figure.name += "_" + share.element;
     data.figures.push_back(std::move(figure));
   }
 }
@@ -168,25 +167,22 @@ void add_share_figures(BranchKind kind, const std::vector<Share>& shares, const 
 void set_figures(const scene::Scene& scene, BranchKind kind, const std::vector<Share>& shares,
                  FigureData& data) {
   const std::size_t frequency = frequency_column(kind), amplitude = amplitude_column(kind);
-  const std::string& over = data.columns.front().label;
-  const std::string& frequency_label = data.columns[frequency].label;
-  const std::string& amplitude_label = data.columns[amplitude].label;
   if (kind == BranchKind::peaks) {
-    const std::string peak = (has_label(scene, "amplitude") ? "" : "peak ") + amplitude_label;
-    const std::string resonance = (has_label(scene, "frequency") ? "" : "resonance ") + frequency_label;
-    data.figures = {{"amplitude", 0, amplitude, over, peak}, {"frequency", 0, frequency, over, resonance}};
+    const std::string peak = (has_label(scene, "amplitude") ? "" : "peak ") + data.columns[amplitude].words;
+    const std::string resonance =
+        (has_label(scene, "frequency") ? "" : "resonance ") + data.columns[frequency].words;
+    data.figures = {{"amplitude", 0, amplitude, "", peak}, {"frequency", 0, frequency, "", resonance}};
     add_share_figures(kind, shares, {"amplitude_over_", 0, amplitude, "", peak}, true, data);
   } else if (kind == BranchKind::folds) {
-    data.figures = {{"folds", frequency, 0, frequency_label, over}};
+    data.figures = {{"folds", frequency, 0}};
   } else if (kind == BranchKind::bifurcations) {
-    data.figures = {{"bifurcations", frequency, 0, frequency_label, over}};
+    data.figures = {{"bifurcations", frequency, 0}};
   } else if (kind == BranchKind::modes) {
-    data.figures = {{"frequency", amplitude, frequency, amplitude_label, frequency_label},
-                    {"damping_ratio", amplitude, damping_column, amplitude_label, "damping ratio"}};
-    add_share_figures(kind, shares, {"", amplitude, 0, amplitude_label, ""}, false, data);
+    data.figures = {{"frequency", amplitude, frequency}, {"damping_ratio", amplitude, damping_column}};
+    add_share_figures(kind, shares, {"", amplitude, 0}, false, data);
   } else {  // responses, also those of optima
-    data.figures = {{"amplitude", 0, amplitude, over, amplitude_label}};
-    add_share_figures(kind, shares, {"", 0, 0, over, ""}, false, data);
+    data.figures = {{"amplitude", 0, amplitude}};
+    add_share_figures(kind, shares, {"", 0, 0}, false, data);
   }
 }
 
@@ -201,7 +197,10 @@ std::size_t amplitude_column(BranchKind kind) {
 }
 
 FigureLine line_of(const scene::Scene& scene, const std::vector<std::pair<std::string, double>>& set) {
-  return {.label = set_label(scene, set), .heading = assignment(scene, set), .set = set};
+  return {.label = set_label(scene, set),
+          .heading = assignment(scene, set),
+          .set = set,
+          .force = force_amplitude(scene, set)};
 }
 
 namespace {
@@ -266,21 +265,37 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
   set_figures(scene, kind, quantities.shares, data);
   if (data.lines.size() == 1 && kind != BranchKind::folds && kind != BranchKind::bifurcations) {
     const auto column_0 = [&](const ResponsePoint& point) { return record(scene, kind, {}, point)[0]; };
-    for (Figure& figure : contact_figures(branches, data.columns[0].label, column_0))
-      data.figures.push_back(std::move(figure));
+    for (FigureView& figure : contact_figures(branches, column_0)) data.figures.push_back(std::move(figure));
   }
   return data;
 }
 
 namespace {
 
+/// Puts words before the texts of a line.
+void prepend(const std::string& words, FigureLine& line) {
+  for (std::string* text : {&line.label, &line.heading}) *text = words + (text->empty() ? "" : ", " + *text);
+}
+
 /// That of a curve of bifurcations has their kind, too.
 FigureLine line_of_branch(const scene::Scene& scene, const ResponseBranch& branch) {
   FigureLine line = line_of(scene, branch.set);
   if (branch.of.empty()) return line;
-  const std::string kind = observables::event_kinds::words_of(branch.of);
-  for (std::string* text : {&line.label, &line.heading}) *text = kind + (text->empty() ? "" : ", " + *text);
+  prepend(observables::event_kinds::words_of(branch.of), line);
   return line;
+}
+
+/// Names what lines of the same parameters differ in: the period of their motions, or that no other branch
+/// reaches them.
+void name_branches(std::vector<LineOfBranches>& lines) {
+  const auto first = [](const LineOfBranches& line) { return line.branches.front(); };
+  const bool have_periods =
+      std::any_of(lines.begin(), lines.end(), [&](const auto& line) { return first(line)->period != 1; });
+  for (LineOfBranches& each : lines) {
+    if (first(each)->isolated) prepend("isolated", each.line);
+    const int period = first(each)->period;
+    if (have_periods) prepend(std::to_string(period) + (period == 1 ? " period" : " periods"), each.line);
+  }
 }
 
 /// Numbers lines whose labels would take the room of the figure: their headings tell what is set.
@@ -299,14 +314,17 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::span<cons
   std::vector<LineOfBranches> lines;
   for (const ResponseBranch& branch : branches) {
     auto line = std::find_if(lines.begin(), lines.end(), [&](const LineOfBranches& candidate) {
-      return candidate.line.set == branch.set && candidate.branches.front()->of == branch.of;
+      const ResponseBranch& other = *candidate.branches.front();
+      return candidate.line.set == branch.set && other.of == branch.of && other.period == branch.period &&
+             other.isolated == branch.isolated;
     });
     if (line == lines.end()) line = lines.insert(line, {line_of_branch(scene, branch), {}});
     line->branches.push_back(&branch);
   }
+  name_branches(lines);
   FigureData data = figures_of(scene, kind, std::move(lines));
   for (std::size_t i = 0; !data.lines.empty() && i < data.lines.front().set.size(); ++i)
-    data.parameters.push_back(label_of(scene, data.lines.front().set[i].first));
+    data.parameters.push_back(words_of(scene, data.lines.front().set[i].first));
   number_long(data);
   return data;
 }
@@ -360,13 +378,12 @@ std::vector<Record> records(const time::TimeHistory& history, const std::vector<
 }
 
 void set_figures(const std::vector<Loop>& loops, FigureData& data) {
-  const auto& columns = data.columns;
-  data.figures = {{"displacement", 0, 1, columns[0].label, columns[1].label}};
+  data.figures = {{"displacement", 0, 1}};
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const std::size_t q = 2 + 2 * i;
     const std::string of = loops.size() > 1 ? "_" + std::to_string(i + 1) + "_" + loops[i].name : "";
-    data.figures.push_back({"hysteresis" + of, q, q + 1, columns[q].label, columns[q + 1].label});
-    data.figures.push_back({"force" + of, 0, q + 1, columns[0].label, columns[q + 1].label});
+    data.figures.push_back({"hysteresis" + of, q, q + 1});
+    data.figures.push_back({"force" + of, 0, q + 1});
   }
 }
 
@@ -376,15 +393,15 @@ FigureData figures_of(const scene::Scene& scene, std::span<const Motion> motions
   FigureData data;
   data.title = scene.title;
   const std::vector<Loop> loops = loops_of(scene, motions);
-  data.columns = {{"time (s)"}, {results::with_unit(label_of(scene, "displacement"), "m")}};
+  data.columns = {{"time", "s"}, {label_of(scene, "displacement"), "m"}};
   for (const Loop& loop : loops) {
-    data.columns.push_back({loop.name + " displacement (m)"});
-    data.columns.push_back({loop.name + " force (N)"});
+    data.columns.push_back({loop.name + " displacement", "m"});
+    data.columns.push_back({loop.name + " force", "N"});
   }
   for (const Motion& motion : motions) {
     if (motion.history.time.empty()) continue;
     if (data.parameters.empty())
-      for (const auto& [name, value] : motion.set) data.parameters.push_back(label_of(scene, name));
+      for (const auto& [name, value] : motion.set) data.parameters.push_back(words_of(scene, name));
     data.lines.push_back(line_of(scene, motion.set));
     data.lines.back().parts = {records(motion.history, loops)};
   }

@@ -2,7 +2,7 @@
 // The figures of studies, as data.
 
 #include <arcslip/analyses/modes_and_time/time_results.hpp>
-#include <arcslip/results/figure.hpp>
+#include <arcslip/results/figure_data.hpp>
 #include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
 

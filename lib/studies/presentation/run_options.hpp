@@ -13,6 +13,7 @@ struct RunOptions {
   bool coefficients = false;  // points and events with the Fourier coefficients a_n, b_n of the response
   bool motions = false;       // results::End::motion, which keeps the unknowns of points and events
   bool figures = false;
+  bool receptance = false;     // a figure of it for each of amplitudes (results::add_receptance)
   control::Control control{};  // at its end the results so far are kept
   // For combinations of for_each, or load cases of one optimum, that are computed at the same time; where
   // there are fewer of these, for the elements of each response. Results are those of one thread. control

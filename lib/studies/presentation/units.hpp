@@ -27,6 +27,16 @@ std::string set_label(const scene::Scene& scene, const NamedValues& set);
 
 /// The label of a parameter or quantity in figures, as the scene has it, or its name.
 std::string label_of(const scene::Scene& scene, const std::string& name);
+/// The same of a parameter, in words: "damper normal load", "k" for "k.value".
+std::string words_of(const scene::Scene& scene, const std::string& parameter);
+
+/// The unit of a parameter; "" for a pure number.
+std::string axis_unit(const scene::Scene& scene, std::string_view parameter);
+
+/// The amplitude (N) of the only force of the scene, where these parameters are set; NaN where there are
+/// several, or where it is constant or of a higher harmonic.
+double force_amplitude(const scene::Scene& scene, const NamedValues& set);
+
 bool has_label(const scene::Scene& scene, std::string_view name);
 
 /// omega (rad/s) in the scene's frequency unit.

@@ -125,7 +125,7 @@ TEST_CASE("a file of results is drawn over chosen columns") {
   CHECK(has(drawn.out, "figures/a_plot.gp"));
   const std::string data = place.read("figures/a_plot.dat");
   CHECK(has(data, "frequency (Hz)"));
-  CHECK(has(data, "amplitude (m)"));
+  CHECK(has(data, "amplitude (mm)"));
   const Ended chosen = run(place, {"plot", "a.json", "--y", "damper.stick_percent", "--x", "omega"},
                            {{"PATH", "/nonexistent"}});
   CHECK(chosen.exit_code == 0);
@@ -177,4 +177,62 @@ TEST_CASE("JSON has the units of its columns, and CSV the two largest multiplier
             "multipliers,multipliers.1.re,multipliers.1.im,multipliers.2.re,multipliers.2.im"));
   const Json& largest = json["branches"][0]["points"][0]["multipliers"][0];
   CHECK(has(csv, "," + largest[0].dump().substr(0, 12)));
+}
+
+TEST_CASE("figures have the formats, the size and the style that are asked for") {
+  const Workplace place;
+  const std::vector<std::string> base{"frf", "scene.json", "--harmonics", "1", "--out", "out", "--quiet"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), base.begin(), base.end());
+    return run(place, more, {{"PATH", "/nonexistent"}});
+  };
+  CHECK(with({"--figures", "pdf", "--figure-size", "400x300", "--receptance"}).exit_code == 0);
+  std::string script;
+  for (const std::string& file : place.files())
+    if (file.ends_with(".gp")) script = place.read(file);
+  CHECK(has(script, "set terminal pdfcairo size "));
+  CHECK(has(script, "_receptance.pdf'"));
+  CHECK_FALSE(has(script, "set terminal svg"));
+  struct Case {
+    std::vector<std::string> arguments;
+    std::string message;
+  };
+  const std::vector<Case> cases{
+      {{"--figures", "gif"}, "--figures gif: must be none, or svg, png and pdf, each once at most"},
+      {{"--figures", "svg,svg"}, "--figures svg,svg: must be none, or svg, png and pdf, each once at most"},
+      {{"--figures", ""}, "--figures: found no value"},
+      {{"--figure-size", "400"},
+       "--figure-size 400: must be WIDTHxHEIGHT, from 200 to 10000 each, as 800x500"},
+      {{"--figure-size", "100x400"}, "--figure-size 100x400: must be WIDTHxHEIGHT"},
+      {{"--figure-size", "400x10001"}, "--figure-size 400x10001: must be WIDTHxHEIGHT"},
+      {{"--figure-style", "red"}, "--figure-style red: must be colour or grey"}};
+  for (const Case& each : cases) {
+    CAPTURE(each.message);
+    const Ended refused = with(each.arguments);
+    CHECK(refused.exit_code == 1);
+    CHECK(has(refused.err, each.message));
+  }
+}
+
+TEST_CASE("figures of none are their data and scripts, without a word about gnuplot") {
+  const Workplace place;
+  const Ended ended =
+      run(place, {"frf", "scene.json", "--harmonics", "1", "--out", "out", "--figures", "none"},
+          {{"PATH", "/nonexistent"}});
+  CHECK(ended.exit_code == 0);
+  CHECK_FALSE(has(ended.err, "gnuplot"));
+  CHECK(has(ended.out, ".gp"));
+  CHECK_FALSE(has(ended.out, ".svg"));
+}
+
+TEST_CASE("a receptance needs a single force of the first harmonic") {
+  const Workplace place;
+  auto scene = nlohmann::json::parse(place.read("scene.json"));
+  scene["excitation"][0]["harmonic"] = 3;
+  place.write("third.json", scene.dump());
+  const Ended refused = run(place, {"frf", "third.json", "--receptance"});
+  CHECK(refused.exit_code == 1);
+  CHECK(has(refused.err,
+            "--receptance divides amplitudes by the force of the scene, which has to have a single "
+            "excitation: a force of the first harmonic"));
 }

@@ -3,7 +3,6 @@
 
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/output/atomic_file.hpp>
-#include <arcslip/output/figure_labels.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/output/process.hpp>
 #include <arcslip/studies/presentation/figures.hpp>
@@ -66,7 +65,7 @@ TEST_CASE("figures come as whole SVG and PNG, amplitude and stick share") {
                                                    folder / "frf_stick.svg", folder / "frf_stick.png"});
   const std::string svg = content(folder / "frf_amplitude.svg");
   for (const char* text :
-       {"amplitude (m)", "frequency (Hz)", "A slider", "damper.normal_load", "3 N", "peak"}) {
+       {"amplitude (mm)", "frequency (Hz)", "A slider", "damper normal load", "3 N", "peak"}) {
     CAPTURE(text);
     CHECK(svg.find(text) != std::string::npos);
   }
@@ -255,7 +254,7 @@ TEST_CASE("the names of all files that figures may write are known before") {
             names.end());
 }
 
-TEST_CASE("the data of a figure has a block for each line and its marks") {
+TEST_CASE("the data of a figure has blocks for each line and its marks, in SI units") {
   const TemporaryFolder folder;
   const SearchPath nothing("/nonexistent");
   auto second = support::branch();  // goes on beyond a cut: the same line
@@ -263,11 +262,10 @@ TEST_CASE("the data of a figure has a block for each line and its marks") {
   drawn(support::scene(), BranchKind::responses, std::vector{support::branch(), second}, folder.path(),
         "frf");
   const std::string data = content(folder / "frf.dat");
-  CHECK(data.find(
-            "# frequency (Hz), amplitude (m), damper stick (%)\n# damper.normal_load = 3 N\n1 0.01 100\n") ==
-        0);
-  CHECK(data.find("2 0.005 50\n\n1 0.01 100\n") != std::string::npos);
-  CHECK(data.find("2 0.005 50\n\n\n1.5 0.1 40\n\n\n") != std::string::npos);
+  CHECK(data.find("# amplitude: amplitude (mm) over frequency (Hz), both without the prefixes of their "
+                  "units\n# damper.normal_load = 3 N\n1 0.01\n") == 0);
+  CHECK(data.find("2 0.005\n\n1 0.01\n") != std::string::npos);
+  CHECK(data.find("2 0.005\n\n\n# resonance peak\n1.5 0.1\n\n\n") != std::string::npos);
 }
 
 TEST_CASE("peaks over a parameter are drawn as amplitude, frequency, and amplitude over the stick share") {
@@ -286,9 +284,9 @@ TEST_CASE("peaks over a parameter are drawn as amplitude, frequency, and amplitu
     std::vector<std::string> texts;
   };
   const std::vector<Case> cases{
-      {"peaks_amplitude.svg", {"damper.normal_load (N)", "peak amplitude (m)", "minimum"}},
-      {"peaks_frequency.svg", {"damper.normal_load (N)", "resonance frequency (Hz)"}},
-      {"peaks_amplitude_over_stick.svg", {"stick (% of the period)", "peak amplitude (m)"}}};
+      {"peaks_amplitude.svg", {"damper normal load (N)", "peak amplitude (mm)", "minimum"}},
+      {"peaks_frequency.svg", {"damper normal load (N)", "resonance frequency (Hz)"}},
+      {"peaks_amplitude_over_stick.svg", {"stick of the period (%)", "peak amplitude (mm)"}}};
   for (const Case& c : cases) {
     for (const std::string& text : c.texts) {
       CAPTURE(c.figure, text);
@@ -326,19 +324,20 @@ TEST_CASE("bands lie behind the curve over the parameter, named in the key, and 
     const auto begin = script.find("# " + from + "\n");
     return script.substr(begin, script.find("# " + to + "\n") - begin);
   };
-  const std::string wide = "set object rectangle from 2.5, graph 0 to 6, graph 1 behind";
-  const std::string narrow = "set object rectangle from 3.25, graph 0 to 5, graph 1 behind";
   for (const std::string& figure :
        {part("x_amplitude", "x_frequency"), part("x_frequency", "x_amplitude_over_stick")}) {
-    CHECK(figure.find(wide) < figure.find(narrow));
-    CHECK(figure.find(narrow) < figure.find("plot data"));
+    CHECK(figure.find(" with filledcurves ") < figure.find(" with lines "));
     CHECK(figure.find("title 'within 1 %'") < figure.find("title 'within 5 %'"));
     CHECK(figure.find("title 'within 5 %'") != std::string::npos);
   }
   const std::string over_stick = script.substr(script.find("# x_amplitude_over_stick\n"));
-  CHECK(over_stick.find("\nunset object\n") != std::string::npos);
-  CHECK(over_stick.find("rectangle") == std::string::npos);
+  CHECK(over_stick.find("filledcurves") == std::string::npos);
   CHECK(over_stick.find("within") == std::string::npos);
+  const std::string of_bands = content(folder / "x.dat");
+  const auto wide = of_bands.find("# from and to: within 5 %\n2.5 "),
+             narrow = of_bands.find("# from and to: within 1 %\n3.25 ");
+  CHECK(wide < narrow);
+  CHECK(narrow != std::string::npos);
   if (!have_gnuplot()) return;
   CHECK(figures.problem == "");
   const std::string svg = content(folder / "x_amplitude.svg");
@@ -359,13 +358,13 @@ TEST_CASE(
   const std::string trace = script_of(BranchKind::over_parameter);
   CHECK(trace.find("set output 'x_amplitude.svg'") != std::string::npos);
   CHECK(trace.find("set output 'x_stick.svg'") != std::string::npos);
-  CHECK(trace.find("data index 0 using 1:3 with lines") != std::string::npos);
-  CHECK(trace.find("data index 1 using 1:4 with points") != std::string::npos);
+  CHECK(trace.find("data index 0 using 1:($2*1000) with lines") != std::string::npos);
+  CHECK(trace.find("data index 3 using 1:2 with points") != std::string::npos);
   const std::string folds = script_of(BranchKind::folds);
   CHECK(folds.find("set output 'x_folds.svg'") != std::string::npos);
-  CHECK(folds.find("data index 0 using 2:1 with lines") != std::string::npos);
+  CHECK(folds.find("data index 0 using 1:2 with lines") != std::string::npos);
   CHECK(folds.find("set xlabel 'frequency (Hz)'") != std::string::npos);
-  CHECK(folds.find("set ylabel 'damper.normal_load (N)'") != std::string::npos);
+  CHECK(folds.find("set ylabel 'damper normal load (N)'") != std::string::npos);
 }
 
 TEST_CASE("an axis of a parameter is logarithmic where it is positive over more than a decade") {
@@ -387,35 +386,49 @@ TEST_CASE("an axis of a parameter is logarithmic where it is positive over more 
   }
 }
 
-TEST_CASE("the data of a study over a parameter begin with it, and have a block for each kind of event") {
+TEST_CASE("formats, size and style of images are those asked for") {
+  if (!have_gnuplot()) return;
   const TemporaryFolder folder;
-  const SearchPath nothing("/nonexistent");
-  auto branch = support::peaks();
-  branch.events.push_back(branch.events[0]);
-  branch.events[1].kind = "fold";
-  drawn(support::scene(), BranchKind::peaks, std::vector{branch}, folder.path(), "x");
-  const std::string data = content(folder / "x.dat");
-  CHECK(
-      data.find(
-          "# damper.normal_load (N), frequency (Hz), amplitude (m), damper stick (%)\n# \n0.1 1.5 0.3 1\n") ==
-      0);
-  CHECK(data.find("\n\n\n4 1.57 0.01 50\n\n\n4 1.57 0.01 50\n") != std::string::npos);
+  const auto data = studies::figures_of(support::scene(), BranchKind::peaks, std::vector{support::peaks()});
+  const auto options = [](std::vector<std::string> formats) {
+    return output::FigureOptions{std::move(formats), {.width = 400, .height = 300, .is_grey = true}};
+  };
+  const auto figures = output::draw_figures(data, folder.path(), "x", options({"pdf", "svg", "png"}));
+  CHECK(figures.problem == "");
+  CHECK(figures.images.size() == 3 * data.figures.size());
+  CHECK(content(folder / "x_amplitude.pdf").substr(0, 5) == "%PDF-");
+  const std::string svg = content(folder / "x_amplitude.svg"), png = content(folder / "x_amplitude.png");
+  CHECK(svg.find("width=\"400\" height=\"300\"") != std::string::npos);
+  CHECK(svg.find("stroke='rgb(") != std::string::npos);
+  CHECK(svg.find("rgb( 13,   8, 135)") == std::string::npos);  // the first colour
+  const auto big_endian = [&](std::size_t at) {
+    return 256 * static_cast<unsigned char>(png[at + 2]) + static_cast<unsigned char>(png[at + 3]);
+  };
+  CHECK(big_endian(16) == 600);
+  CHECK(big_endian(20) == 450);
+  const auto none = output::draw_figures(data, folder.path(), "y", options({}));
+  CHECK(none.problem == "");
+  CHECK(none.images.empty());
+  CHECK(support::fs::exists(folder / "y.gp"));
+  const auto names = output::figure_files(data, "x", options({"pdf"}));
+  CHECK(std::find(names.begin(), names.end(), "x_amplitude.pdf") != names.end());
+  CHECK(std::find(names.begin(), names.end(), "x_amplitude.png") == names.end());
 }
 
-TEST_CASE("a label keeps off marks, lines, other labels and the border") {
-  using output::LabelSide;
-  const output::LabelMetrics metrics{0.02, 0.05};
-  const auto sides = [&](const std::vector<output::LabelWish>& wishes,
-                         const std::vector<std::vector<output::Position>>& lines) {
-    return output::place_labels(wishes, lines, metrics);
-  };
-  CHECK(sides({{{0.5, 0.5}, "3 N"}}, {}) == std::vector{LabelSide::above});
-  CHECK(sides({{{0.5, 0.97}, "3 N"}}, {}) == std::vector{LabelSide::right});
-  CHECK(sides({{{0.99, 0.97}, "3 N"}}, {}) == std::vector{LabelSide::left});
-  CHECK(sides({{{0.5, 0.5}, "3 N"}}, {{{0, 0.55}, {1, 0.55}}}) == std::vector{LabelSide::right});
-  CHECK(sides({{{0.5, 0.5}, "3 N"}, {{0.5, 0.501}, "4 N"}}, {}) ==
-        std::vector{LabelSide::above, LabelSide::right});
-  std::vector<std::vector<output::Position>> hatched;
-  for (int i = 0; i <= 100; ++i) hatched.push_back({{0, i / 100.0}, {1, i / 100.0}});
-  CHECK(sides({{{0.5, 0.5}, "3 N"}}, hatched) == std::vector{LabelSide::none});
+TEST_CASE("one gnuplot draws the figures of several sets of curves, while the caller goes on") {
+  const TemporaryFolder folder, programs;
+  write_program(programs / "gnuplot", "echo $$ >> started; echo $4 $5 > scripts; sleep 1; exit 3");
+  const SearchPath path(programs.path() + ":/usr/bin:/bin");
+  const auto data = studies::figures_of(support::scene(), BranchKind::peaks, std::vector{support::peaks()});
+  const std::vector<output::NamedFigures> both{{"a", data}, {"b", data}};
+  const auto begin = std::chrono::steady_clock::now();
+  output::DrawingFigures drawing(both, folder.path());
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(700));
+  const auto figures = drawing.finish();
+  CHECK(figures.problem.find("run gnuplot -d a.gp b.gp in " + folder.path()) != std::string::npos);
+  CHECK(figures.sources ==
+        std::vector<std::string>{folder / "a.dat", folder / "a.gp", folder / "b.dat", folder / "b.gp"});
+  CHECK(content(folder / "scripts") == "a.gp b.gp\n");
+  const std::string started = content(folder / "started");
+  CHECK(std::count(started.begin(), started.end(), '\n') == 1);
 }

@@ -49,7 +49,7 @@ std::string page_of_results(int count, int stopped, std::vector<results::FigureD
 /// A wave with noise in so many points.
 results::FigureData wave(std::size_t points, double noise) {
   results::FigureData data;
-  data.columns = {{"x", results::Scale::linear, {0, 1}}, {"y", results::Scale::linear, {-1, 1}}};
+  data.columns = {{"x", "", results::Scale::linear, {0, 1}}, {"y", "", results::Scale::linear, {-1, 1}}};
   data.figures = {{"y", 0, 1, "x", "y"}};
   data.lines.emplace_back().parts.emplace_back();
   for (std::size_t i = 0; i < points; ++i) {

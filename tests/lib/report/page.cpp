@@ -114,7 +114,7 @@ TEST_CASE("the data of a page is JSON, with the numbers of the curves and the ro
   CHECK(data["lines"].size() == 2);
   CHECK(data["columns"][0]["label"] == "frequency (Hz)");
   CHECK(data["columns"][0]["frequency"] == true);
-  CHECK(data["columns"].back()["label"] == "estimated error of the amplitude (m)");
+  CHECK(data["columns"].back()["label"] == "estimated error of the amplitude (mm)");
   CHECK(data["columns"].back()["pointOnly"] == true);
   std::vector<int> rows;
   for (const auto& line : data["lines"])

@@ -5,6 +5,7 @@
 
 #include <arcslip/analyses/curves/curves.hpp>
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
+#include <arcslip/figures/layout.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/studies/catalogue.hpp>
@@ -219,28 +220,34 @@ TEST_CASE("axes of figures have the labels of the scene, and the names of quanti
     collector.begin({}, std::vector{studies::kind_of(*study.type).schema(s, study, options)});
     return studies::kind_of(*study.type).run(s, study, options, 0, collector).at(0);
   };
+  const auto x_axis = [](const results::FigureData& data, std::size_t i) {
+    return figures::figure_of(data, data.figures[i]).x.label;
+  };
+  const auto y_axis = [](const results::FigureData& data, std::size_t i) {
+    return figures::figure_of(data, data.figures[i]).y.label;
+  };
   const scene::Study over_load = {
       "p",
       &studies::peaks(),
       scene::Settings::of(observables::CurveRange{"damper.normal_load", 3, 4, 19, 21}),
       {}};
-  CHECK(figures(frf("a", {})).figures[0].x_label == "frequency (Hz)");
-  CHECK(figures(over_load).figures[0].y_label == "peak amplitude (m)");
+  CHECK(x_axis(figures(frf("a", {})), 0) == "frequency (Hz)");
+  CHECK(y_axis(figures(over_load), 0) == "peak amplitude (mm)");
   s.labels = {{"frequency", "excitation frequency"},
               {"amplitude", "tip"},
               {"damper.normal_load", "normal load F_n"},
               {"displacement", "tip of the blade"}};
   const results::FigureData responses =
       figures(frf("a", {{"damper.normal_load", {1, 3}}, {"c.value", {0.1}}}));
-  CHECK(responses.figures[0].x_label == "excitation frequency (Hz)");
-  CHECK(responses.figures[0].y_label == "tip (m)");
-  CHECK(responses.parameters == std::vector<std::string>{"normal load F_n", "c.value"});
+  CHECK(x_axis(responses, 0) == "excitation frequency (Hz)");
+  CHECK(y_axis(responses, 0) == "tip (mm)");
+  CHECK(responses.parameters == std::vector<std::string>{"normal load F_n", "c"});
   CHECK(responses.lines[0].heading == "damper.normal_load = 1 N, c.value = 0.1 N s/m");
   const results::FigureData peaks = figures(over_load);
-  CHECK(peaks.figures[0].x_label == "normal load F_n (N)");
-  CHECK(peaks.figures[0].y_label == "tip (m)");
-  CHECK(peaks.figures[1].y_label == "excitation frequency (Hz)");
-  CHECK(figures(time_study("t")).figures[0].y_label == "tip of the blade (m)");
+  CHECK(x_axis(peaks, 0) == "normal load F_n (N)");
+  CHECK(y_axis(peaks, 0) == "tip (mm)");
+  CHECK(y_axis(peaks, 1) == "excitation frequency (Hz)");
+  CHECK(y_axis(figures(time_study("t")), 0) == "tip of the blade (mm)");
   // What would take the room of the figure is numbered.
   const results::FigureData numbered = figures(
       frf("a", {{"damper.normal_load", {1, 3}}, {"c.value", {0.123456789}}, {"k.value", {17890.12345}}}));

@@ -97,10 +97,10 @@ TEST_CASE("figures of modes are over the amplitude: the frequency, the damping r
   const std::vector branches{mode(s, 1, 1e-5, 1e-2)};
   const results::FigureData data = studies::figures_of(s, studies::BranchKind::modes, branches);
   REQUIRE(data.columns.size() == 4);
-  CHECK(data.columns[0].label == "amplitude (m)");
+  CHECK(data.columns[0].words == "amplitude");
   CHECK(data.columns[0].scale == results::Scale::logarithmic);
-  CHECK(data.columns[1].label == "frequency (Hz)");
-  CHECK(data.columns[2].label == "damping ratio");
+  CHECK(data.columns[1].unit == "Hz");
+  CHECK(data.columns[2].words == "damping ratio");
   CHECK(data.columns[2].scale == results::Scale::linear);
   REQUIRE(data.figures.size() == 4);
   const char* names[] = {"frequency", "damping_ratio", "stick", "contact"};

@@ -5,6 +5,7 @@
 #include "lib/output/support.hpp"
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
+#include <arcslip/figures/layout.hpp>
 #include <arcslip/output/gnuplot_script.hpp>
 #include <arcslip/studies/presentation/figures.hpp>
 
@@ -15,21 +16,21 @@
 
 using namespace arcslip;
 using observables::ResponseBranch;
-using results::Figure;
 using results::FigureArea;
+using results::FigureView;
 using std::numbers::pi;
 using studies::BranchKind;
 
 namespace {
 
-const Figure* contact_figure(const results::FigureData& data, const std::string& name = "contact") {
+const FigureView* contact_figure(const results::FigureData& data, const std::string& name = "contact") {
   const auto found = std::find_if(data.figures.begin(), data.figures.end(),
-                                  [&](const Figure& figure) { return figure.name == name; });
+                                  [&](const FigureView& figure) { return figure.name == name; });
   return found == data.figures.end() ? nullptr : &*found;
 }
 
 // Of the kinds that begin so, degrees times the unit of x.
-double area(const Figure& figure, const std::string& kind) {
+double area(const FigureView& figure, const std::string& kind) {
   double sum = 0;
   for (const FigureArea& each : figure.areas) {
     if (!each.kind.starts_with(kind)) continue;
@@ -51,11 +52,11 @@ observables::ResponsePoint at(double hertz, std::vector<std::pair<const char*, d
   return point;
 }
 
-Figure made_up(std::vector<observables::ResponsePoint> points) {
+FigureView made_up(std::vector<observables::ResponsePoint> points) {
   ResponseBranch branch = support::branch();
   branch.points = std::move(points);
   const auto data = studies::figures_of(support::scene(), BranchKind::responses, std::vector{branch});
-  const Figure* figure = contact_figure(data);
+  const FigureView* figure = contact_figure(data);
   REQUIRE(figure);
   return *figure;
 }
@@ -77,7 +78,7 @@ TEST_CASE("the areas of stick and separation are the integrals of their shares o
     for (std::size_t e = 0; e < s.elements.size(); ++e) {
       const std::string own = s.elements.size() > 1 ? "contact_" + s.elements[e].name : "contact";
       CAPTURE(name, own);
-      const Figure* figure = contact_figure(data, own);
+      const FigureView* figure = contact_figure(data, own);
       REQUIRE(figure);
       double stick = 0, open = 0, before = -1, reached = 0;
       const observables::ElementResponse* last = nullptr;
@@ -104,8 +105,8 @@ TEST_CASE("the areas of stick and separation are the integrals of their shares o
 }
 
 TEST_CASE("where a boundary passes the beginning of the period its strip goes on at the other end") {
-  const Figure figure = made_up({at(1, {{"stick", 20}, {"slip+", 100}, {"slip-", 300}}),
-                                 at(2, {{"slip+", 80}, {"slip-", 280}, {"stick", 340}})});
+  const FigureView figure = made_up({at(1, {{"stick", 20}, {"slip+", 100}, {"slip-", 300}}),
+                                     at(2, {{"slip+", 80}, {"slip-", 280}, {"stick", 340}})});
   REQUIRE(figure.areas.size() == 3);
   const FigureArea& stick = figure.areas[0];
   CHECK(stick.kind == "stick");
@@ -119,7 +120,7 @@ TEST_CASE("where a boundary passes the beginning of the period its strip goes on
 }
 
 TEST_CASE("where the order of the states changes strips end half-way between the points") {
-  const Figure figure = made_up({at(1, {{"stick", 0}}), at(2, {{"stick", 10}, {"open", 200}})});
+  const FigureView figure = made_up({at(1, {{"stick", 0}}), at(2, {{"stick", 10}, {"open", 200}})});
   REQUIRE(figure.areas.size() == 2);
   CHECK(area(figure, "open") == Approx(0.5 * 170));
   CHECK(area(figure, "stick") == Approx(0.5 * 360 + 0.5 * 190));
@@ -157,23 +158,24 @@ TEST_CASE("contacts are drawn of a single line, alone or by their names, and of 
   for (auto& point : peaks.points) point.elements[0].contact = {{"stick", 0, 2 * pi}};
   const auto data = of({peaks}, BranchKind::peaks);
   REQUIRE(contact_figure(data));
-  CHECK(contact_figure(data)->x_label == "damper.normal_load (N)");
+  CHECK(results::x_words(data, *contact_figure(data)) == "damper normal load");
   CHECK(area(*contact_figure(data), "stick") == Approx(360 * 29.9));
 }
 
-TEST_CASE("areas come after the lines in the data of gnuplot, each a block of strips") {
+TEST_CASE("areas are blocks of strips in the data of gnuplot, after those of the figures before") {
   ResponseBranch branch = support::branch();
   branch.points = {at(1, {{"stick", 20}, {"slip+", 100}}), at(2, {{"stick", 340}, {"slip+", 100}})};
-  const auto data = studies::figures_of(support::scene(), BranchKind::responses, std::vector{branch});
+  const auto all =
+      figures::figures_of(studies::figures_of(support::scene(), BranchKind::responses, std::vector{branch}));
+  REQUIRE(all.size() == 3);
   std::ostringstream text, script;
-  output::write_figure_data(text, data);
-  output::write_gnuplot_script(script, data, "f", output::image_names(data, "f"));
-  // Two points and a peak before them: blocks 0 and 1.
-  CHECK(script.str().find("data index 2 using 1:2:3 with filledcurves") != std::string::npos);
-  CHECK(script.str().find("data index 3 using 1:2:3 with filledcurves") != std::string::npos);
+  output::write_figure_data(text, all);
+  output::write_gnuplot_script(script, all, "f", {"f_amplitude", "f_stick", "f_contact"}, {"svg"}, {});
+  // A curve and a peak of each of the two figures before them.
+  CHECK(script.str().find("data index 4 using 1:2:3 with filledcurves") != std::string::npos);
+  CHECK(script.str().find("data index 5 using 1:2:3 with filledcurves") != std::string::npos);
   CHECK(script.str().find("title 'slip+'") != std::string::npos);
-  const auto stick = text.str().find("angle of the period (degrees), stick\n1 20 ");
-  REQUIRE(stick != std::string::npos);
+  CHECK(text.str().find("# from and to: stick\n1 20 ") != std::string::npos);
   std::size_t blocks = 1;
   for (auto i = text.str().find("\n\n\n"); i != std::string::npos; i = text.str().find("\n\n\n", i + 3))
     ++blocks;

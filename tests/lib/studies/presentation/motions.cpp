@@ -3,7 +3,6 @@
 
 #include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/output/figures.hpp>
-#include <arcslip/output/gnuplot_script.hpp>
 #include <arcslip/results/csv_writer.hpp>
 #include <arcslip/results/json_writer.hpp>
 #include <arcslip/results/reasons.hpp>
@@ -154,10 +153,12 @@ TEST_CASE("figures of motions are the displacement, and the loop and the force o
   const auto figures = data.figures;
   REQUIRE(figures.size() == 3);
   CHECK(figures[0].name == "displacement");
-  CHECK(figures[0].x_label == "time (s)");
+  CHECK(results::x_words(data, figures[0]) == "time");
   CHECK(figures[1].name == "hysteresis");
-  CHECK(figures[1].x_label == "damper displacement (m)");
-  CHECK(figures[1].y_label == "damper force (N)");
+  CHECK(results::x_words(data, figures[1]) == "damper displacement");
+  CHECK(data.columns[2].unit == "m");
+  CHECK(results::y_words(data, figures[1]) == "damper force");
+  CHECK(data.columns[3].unit == "N");
   CHECK(figures[2].name == "force");
   CHECK(figures[2].x == 0);
   CHECK(figures[2].y == 3);
@@ -168,9 +169,8 @@ TEST_CASE("figures of motions are the displacement, and the loop and the force o
   scene::Scene of_two = scene;
   of_two.elements.push_back(of_two.elements.front());
   of_two.elements.back().name = "b/c";
-  const auto more = output::image_names(studies::figures_of(of_two, std::vector{two}), "t");
-  REQUIRE(more.size() == 5);
-  CHECK(more[3] == "t_hysteresis_2_b_c");
+  const auto more = output::figure_files(studies::figures_of(of_two, std::vector{two}), "t", {{"svg"}, {}});
+  CHECK(std::count(more.begin(), more.end(), "t_hysteresis_2_b_c.svg") == 1);
 }
 
 TEST_CASE("histories of more than 20 000 instants are thinned in figures, and keep their end") {
@@ -198,8 +198,7 @@ TEST_CASE("the figures of motions are drawn") {
       studies::figures_of(made_up_scene(), std::vector{made_up_motion()}), folder.path(), "time");
   CHECK(figures.problem.empty());
   CHECK(figures.images.size() == 6);
-  CHECK(support::content(folder / "time.dat").find("# time (s), displacement (m), damper displacement (m)") ==
-        0);
+  CHECK(support::content(folder / "time.dat").find("# displacement: displacement (") == 0);
   const auto none = output::draw_figures(studies::figures_of(made_up_scene(), std::vector<Motion>{}),
                                          folder.path(), "none");
   CHECK(none.problem == "no figure was drawn: there are no points");
