@@ -20,6 +20,7 @@ using results::json_quoted;
 using results::Record;
 
 constexpr int drawn_digits = 7;  // of what is drawn: more than a zoom shows
+constexpr int area_digits = 4;   // of areas, whose ends are degrees
 constexpr int point_digits = 3;  // of what is shown at a point alone
 
 std::string number(double value, int most) {
@@ -100,6 +101,46 @@ std::string mark_json(const FigureMark& mark, const std::vector<results::EventKi
          (mark.label.empty() ? "" : ",\"label\":" + json_quoted(mark.label)) + "}";
 }
 
+constexpr std::string_view digits_of_64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+/// Numbers as two digits each, of 64, in 4096 steps from -largest to largest.
+std::string packed(const std::vector<double>& values, double largest) {
+  constexpr int base = 64, steps = base * base - 1;
+  std::string text;
+  for (const double value : values) {
+    const double share = largest > 0 && std::isfinite(value) ? value / largest : 0;
+    const long step = std::lround((share + 1) / 2 * steps);
+    text += digits_of_64[static_cast<std::size_t>(step / base)];
+    text += digits_of_64[static_cast<std::size_t>(step % base)];
+  }
+  return text;
+}
+
+/// {"most": 0.01, "of": "..."}
+std::string series_json(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return "{\"most\":" + number(largest, point_digits + 1) +
+         ",\"of\":" + json_quoted(packed(values, largest)) + "}";
+}
+
+std::string motion_json(const results::FigureMotion& motion, const std::vector<int>& digits_of) {
+  std::string at;
+  for (std::size_t c = 0; c < digits_of.size(); ++c)
+    at += (c > 0 ? "," : "") + number(motion.record[c], digits_of[c]);
+  return "{\"at\":[" + at + "],\"words\":" + json_quoted(motion.words) +
+         ",\"period\":" + number(motion.period, drawn_digits) + ",\"x\":" + series_json(motion.displacement) +
+         ",\"loops\":" +
+         list_of(motion.loops,
+                 [&](const results::FigureLoop& loop) {
+                   const bool is_response = loop.displacement == motion.displacement;  // is there already
+                   return "{\"name\":" + json_quoted(loop.name) +
+                          (is_response ? "" : ",\"q\":" + series_json(loop.displacement)) +
+                          ",\"f\":" + series_json(loop.force) + "}";
+                 }) +
+         "}";
+}
+
 std::string line_json(const FigureLine& line, const std::vector<int>& digits_of,
                       const std::vector<results::EventKind>& kinds, const RowsOfMarks& rows) {
   std::string parts = "[";
@@ -112,6 +153,9 @@ std::string line_json(const FigureLine& line, const std::vector<int>& digits_of,
          ",\"set\":" + list_of(line.set, [](const auto& value) { return results::shortest(value.second); }) +
          ",\"parts\":" + parts + "],\"marks\":" +
          list_of(line.marks, [&](const FigureMark& mark) { return mark_json(mark, kinds, rows); }) +
+         ",\"motions\":" +
+         list_of(line.motions,
+                 [&](const results::FigureMotion& motion) { return motion_json(motion, digits_of); }) +
          ",\"bands\":" +
          list_of(line.bands,
                  [](const results::FigureBand& band) {
@@ -124,10 +168,9 @@ std::string line_json(const FigureLine& line, const std::vector<int>& digits_of,
 
 std::string area_json(const FigureArea& area) {
   return "{\"kind\":" + json_quoted(area.kind) + ",\"strips\":" +
-         list_of(area.strips,
-                 [](const auto& strip) {
-                   return columns_of(strip, {drawn_digits, drawn_digits, drawn_digits});
-                 }) +
+         list_of(
+             area.strips,
+             [](const auto& strip) { return columns_of(strip, {area_digits, area_digits, area_digits}); }) +
          "}";
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace arcslip::report {
 namespace {
@@ -47,6 +48,28 @@ std::map<std::string, std::string> varied(const scene::Scene& scene) {
   return all;
 }
 
+/// The forces of elements that are given by formulas.
+void write_formulas(Html& html, const scene::Scene& scene) {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const scene::Part& element : scene::all_elements(scene)) {
+    const std::vector<std::string> formulas = element.type->formulas(element.options);
+    const auto names = element.type->slots_with(element.options);
+    for (std::size_t i = 0; i < formulas.size(); ++i)
+      all.emplace_back(
+          element.name + (formulas.size() > 1 && i < names.size() ? "." + std::string(names[i]) : ""),
+          formulas[i]);
+  }
+  if (all.empty()) return;
+  html.open("table", {{"class", "formulas"}});
+  write_titles(html, {"element", "force"});
+  html.open("tbody");
+  for (const auto& [name, formula] : all) {
+    html.open("tr").element("th", name, {{"scope", "row"}});
+    html.open("td").element("code", formula).close().close();
+  }
+  html.close().close();
+}
+
 }  // namespace
 
 void write_parameters(Html& html, const Contents& contents) {
@@ -77,6 +100,7 @@ void write_parameters(Html& html, const Contents& contents) {
     html.close();
   }
   html.close().close().close();
+  write_formulas(html, scene);
   if (names.size() > most_parameters)
     html.element("p", "The scene has " + std::to_string(names.size()) + " parameters, of which the first " +
                           std::to_string(most_parameters) + " stand here; arcslip check prints all.");

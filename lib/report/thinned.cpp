@@ -90,9 +90,18 @@ std::vector<Record> thinned(const FigureData& data, const std::vector<Record>& p
 }  // namespace
 
 FigureData thinned(const FigureData& data, double tolerance) {
+  constexpr double coarse_areas = 4e-4;  // of the axes: a third of a pixel
+  const FigureColumn angle{.words = "angle", .range = {0, 360}};
   FigureData all = data;
   for (results::FigureLine& line : all.lines)
     for (std::vector<Record>& part : line.parts) part = thinned(data, part, tolerance);
+  for (results::FigureView& view : all.figures) {
+    FigureData of_areas;
+    of_areas.columns = {data.columns[view.x], angle, angle};
+    for (results::FigureArea& area : view.areas)
+      for (std::vector<Record>& strip : area.strips)
+        strip = thinned(of_areas, strip, std::max(tolerance, coarse_areas));
+  }
   return all;
 }
 

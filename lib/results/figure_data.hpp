@@ -44,6 +44,21 @@ struct FigureBand {
   Range range;
 };
 
+/// A force over the displacement that it acts along, over a period.
+struct FigureLoop {
+  std::string name;  // "damper"
+  std::vector<double> displacement, force;
+};
+
+/// The motion at a point of a line, at instants from 0 to 1 of its period.
+struct FigureMotion {
+  Record record;                       // the point
+  std::string words{};                 // "resonance peak"; empty: no event
+  double period = 0;                   // s
+  std::vector<double> displacement{};  // of the response, m
+  std::vector<FigureLoop> loops{};     // of friction elements
+};
+
 /// One line of a figure: the results with the same set parameters.
 struct FigureLine {
   std::string label{};                                // "3 N", or "3 N, 0.1 N s/m"
@@ -52,8 +67,9 @@ struct FigureLine {
   std::vector<std::vector<Record>> parts{};           // drawn separately
   std::vector<bool> unstable{};                       // of each part: it is drawn dashed; empty: not known
   std::vector<FigureMark> marks{};
-  bool unbounded = false;  // somewhere, outside what is drawn
-  bool is_main = false;    // drawn before the others, wider and dark: the curve of an optimum
+  std::vector<FigureMotion> motions{};  // at some points
+  bool unbounded = false;               // somewhere, outside what is drawn
+  bool is_main = false;                 // drawn before the others, wider and dark: the curve of an optimum
   double force = std::numeric_limits<double>::quiet_NaN();  // amplitude of the excitation, N; NaN: not one
   std::vector<FigureBand> bands{};                          // the widest first
 };

@@ -41,6 +41,6 @@ std::vector<std::string> varied_parameters(const Study& study);
 inline constexpr int usual_combinations = 100'000;
 
 /// Of more, there are no figures, whose data would stay in memory to the end.
-inline constexpr int most_drawn = 1000;
+inline constexpr int most_drawn = 2500;
 
 }  // namespace arcslip::scene

@@ -59,6 +59,9 @@ class PartType {
   /// Whether they decide which fields it has; for the JSON Schema.
   virtual bool options_bring_fields() const { return !options().empty(); }
 
+  /// The formulas of its forces, where its options have them: one for each direction.
+  virtual std::vector<std::string> formulas(const Settings&) const { return {}; }
+
   /// Whether the part acts by the phase of the excitation, which is another one in each sector of a ring.
   virtual bool depends_on_phase(const Settings&) const { return false; }
   /// Whether a wear coefficient stands next to them: of elements that dissipate.

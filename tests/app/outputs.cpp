@@ -155,12 +155,12 @@ TEST_CASE("a sweep over many combinations takes no more memory than a short one"
     CHECK(ended.exit_code == 0);
     return ended;
   };
-  // What the figures of up to 1000 responses show stays in memory, but not of more.
+  // What the figures of up to 2500 responses show stays in memory, but not of more.
   const std::string undrawn =
-      "arcslip: no figure of the study \"s\" is drawn: it has 1500 combinations, and figures show at most "
-      "1000";
-  const Ended few_in_folder = swept(3, {"--out", "few"}), many_in_folder = swept(1001, {"--out", "many"}),
-              more_in_folder = swept(1500, {"--out", "more"});
+      "arcslip: no figure of the study \"s\" is drawn: it has 3000 combinations, and figures show at most "
+      "2500";
+  const Ended few_in_folder = swept(3, {"--out", "few"}), many_in_folder = swept(2501, {"--out", "many"}),
+              more_in_folder = swept(3000, {"--out", "more"});
   CHECK(few_in_folder.err.find("no figure") == std::string::npos);
   CHECK(more_in_folder.err.find(undrawn) != std::string::npos);
   CHECK(fs::exists(place / "few/s.gp"));

@@ -242,6 +242,9 @@ class FormulaType final : public scene::file::KeyedPart<FormulaOptions, LawType>
     return options.empty() ? std::span<const std::string_view>()
                            : options.as<FormulaOptions>().own->law->slots();
   }
+  std::vector<std::string> formulas(const scene::Settings& options) const override {
+    return options.empty() ? std::vector<std::string>() : options.as<FormulaOptions>().own->forces;
+  }
   bool depends_on_phase(const scene::Settings& options) const override {
     return law(options)->phase_dependent();
   }

@@ -111,7 +111,7 @@ class Curve {
     const svg = d3.select(figure).insert("svg", ".key").attr("class", "live")
       .attr("viewBox", `0 0 ${paper.width} ${paper.height}`).attr("tabindex", 0).attr("role", "application")
       .attr("aria-label", description.yLabel + " over " + description.xLabel +
-        ". Arrow keys go along a curve and from curve to curve, plus and minus zoom, 0 shows all.");
+        ". Arrow keys go along a curve and from curve to curve, Enter shows the motion there, plus and minus zoom, 0 shows all.");
     svg.append("clipPath").attr("id", "clip" + number).append("rect").attr("x", paper.left).attr("y", paper.top)
       .attr("width", paper.right - paper.left).attr("height", paper.bottom - paper.top);
     this.svg = svg;
@@ -128,6 +128,7 @@ class Curve {
         .attr("class", "line " + lineClass(i, data.lines.length) + (data.lines[i].main ? " main" : "") + (part.unstable ? " unstable" : "")).node()));
     this.front = clipped.append("g").attr("class", "figure-front");
     this.addMarks(clipped.append("g"));
+    this.chosen = clipped.append("g").attr("class", "chosen");
     this.cursor = clipped.append("g").attr("class", "cursor");
   }
 
@@ -187,6 +188,7 @@ class Curve {
       .attr("transform", ({mark}) =>
         `translate(${this.x(mark.values[description.x])},${this.y(mark.values[description.y])})`);
     this.refreshKey();
+    markMotion(this);
     this.pointer.refresh();
   }
 

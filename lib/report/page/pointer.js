@@ -14,8 +14,14 @@ class Pointer {
     curve.figure.append(this.values, this.spoken);
     const svg = curve.svg.node();
     svg.addEventListener("pointermove", event => this.show(this.nearest(...this.place(event)), false));
+    svg.addEventListener("click", event => this.showMotion(event.target));
     svg.addEventListener("pointerleave", () => this.show(null, false));
     svg.addEventListener("blur", () => this.show(null, false));
+  }
+
+  // Of the point that is shown. A click on a mark leads to its row alone.
+  showMotion(target) {
+    if (this.at !== null && !target.classList.contains("mark")) showMotion(this.curve, this.at);
   }
 
   // In the units of the drawing.
@@ -130,6 +136,7 @@ class Pointer {
     const lines = {ArrowUp: -1, ArrowDown: 1};
     if (event.key in steps) return () => this.go(steps[event.key] * (event.shiftKey ? 10 : 1));
     if (event.key in lines) return () => this.goToLine(lines[event.key]);
+    if (event.key === "Enter") return () => this.showMotion(this.curve.svg.node());
     return event.key === "Escape" ? () => this.show(null, false) : null;
   }
 

@@ -4,6 +4,7 @@
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/studies/presentation/contact_figures.hpp>
+#include <arcslip/studies/presentation/motions_on_lines.hpp>
 #include <arcslip/studies/presentation/units.hpp>
 
 #include <algorithm>
@@ -93,6 +94,7 @@ using results::Record;
 using results::Scale;
 
 constexpr double decade = 10;
+constexpr std::size_t most_motions = 108;  // of one set of lines
 constexpr std::size_t damping_column = 2;  // of modes
 
 Record record(const scene::Scene& scene, BranchKind kind, const Quantities& quantities,
@@ -244,6 +246,7 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
     branches.insert(branches.end(), each.branches.begin(), each.branches.end());
   const Quantities quantities = quantities_of(kind, branches);
   set_columns(scene, kind, quantities, branches.empty() ? "" : branches.front()->over, data);
+  const std::size_t motions_each = most_motions / std::max<std::size_t>(1, lines.size());
   for (LineOfBranches& each : lines) {
     FigureLine line = std::move(each.line);
     for (const ResponseBranch* branch : each.branches) {
@@ -259,6 +262,10 @@ FigureData figures_of(const scene::Scene& scene, BranchKind kind, std::vector<Li
       add_parts(
           *branch, [&](const ResponsePoint& point) { return record(scene, kind, quantities, point); }, line);
     }
+    if (kind == BranchKind::responses)
+      line.motions = motions_on(scene, each.branches, motions_each, [&](const ResponsePoint& point) {
+        return record(scene, kind, quantities, point);
+      });
     if (!line.parts.empty()) data.lines.push_back(std::move(line));
   }
   set_ranges(kind, data);

@@ -145,3 +145,52 @@ TEST_CASE("a page needs nothing from elsewhere") {
   CHECK(contains(page, "content=\"default-src &#39;none&#39;; script-src &#39;sha256-"));
   CHECK_FALSE(contains(page, "unsafe-"));
 }
+
+TEST_CASE("the forces of elements by formulas are next to the parameters, as text") {
+  std::string json = two_masses("\"t\"", "\"a\"", "\"b\"");
+  const std::string cubic = R"("type": "cubic_spring", "at": "b", "stiffness": 1000)";
+  REQUIRE(contains(json, cubic));
+  json.replace(json.find(cubic), cubic.size(),
+               R"x("type": "formula", "at": "b", "force": "s*q^3*(q^2<1)", "parameters": {"s": 1000})x");
+  const std::string page = page_of(scene_of(json));
+  CHECK(contains(page, "<code>s*q^3*(q^2&lt;1)</code>"));
+  CHECK_FALSE(contains(page_of(scene_of(two_masses("\"t\"", "\"a\"", "\"b\""))), "class=\"formulas\""));
+}
+
+TEST_CASE("the data of a page have motions at peaks and other points, as laws of force have them") {
+  const std::string page = page_of(scene_of(two_masses("\"t\"", "\"a\"", "\"b\"")));
+  const std::vector<markup::Element> all = markup::elements(page);
+  const auto data = nlohmann::json::parse(markup::named(all, "script").front().text)["studies"][0][0];
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto unpacked = [&](const nlohmann::json& series) {
+    const std::string text = series["of"];
+    std::vector<double> values;
+    for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
+      const auto step = static_cast<double>(64 * digits.find(text[i]) + digits.find(text[i + 1]));
+      values.push_back((step / 4095 * 2 - 1) * series["most"].get<double>());
+    }
+    return values;
+  };
+  for (const auto& line : data["lines"]) {
+    const auto& motions = line["motions"];
+    REQUIRE(motions.size() >= 5);
+    CHECK(motions[0]["words"] == "resonance peak");
+    const double limit = 0.5 * line["set"][0].get<double>();  // friction coefficient times normal load
+    for (const auto& motion : motions) {
+      CHECK(motion["period"].get<double>() * motion["at"][0].get<double>() == Approx(1).epsilon(1e-6));
+      const std::vector<double> x = unpacked(motion["x"]);
+      const auto [least, most] = std::minmax_element(x.begin(), x.end());
+      // The amplitude lies between two instants: cos(pi/40) is 0.997.
+      CHECK(std::max(-*least, *most) == Approx(motion["at"][1].get<double>()).epsilon(5e-3));
+      CHECK(x.front() == Approx(x.back()).margin(1e-3 * *most));
+      REQUIRE(motion["loops"].size() == 1);
+      CHECK(motion["loops"][0]["name"] == "d");
+      CHECK_FALSE(motion["loops"][0].contains("q"));  // the element is at the response
+      const std::vector<double> force = unpacked(motion["loops"][0]["f"]);
+      const bool sticks = motion["at"][2].get<double>() > 99.999;
+      const double largest = *std::max_element(force.begin(), force.end());
+      CHECK(largest <= limit * (1 + 1e-6));
+      if (!sticks) CHECK(largest == Approx(limit).epsilon(1e-3));
+    }
+  }
+}
