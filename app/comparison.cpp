@@ -24,6 +24,17 @@ constexpr std::size_t shown_of_value = 60;  // characters
 /// What a computation took, which differs from run to run.
 constexpr std::array<std::string_view, 4> of_work = {"solver", "seconds", "time", "threads"};
 
+/// Whether a number is one that others follow from: a frequency, an amplitude, a parameter.
+bool is_first_of_all(std::string_view what) {
+  constexpr std::string_view optimum = ".optimum.";
+  const auto at = what.find(optimum);
+  const bool is_design = at != std::string_view::npos &&
+                         what.find('.', at + optimum.size()) != std::string_view::npos &&
+                         what.find(".elements.") == std::string_view::npos;
+  return is_design || what.ends_with(".frequency") || what.ends_with(".amplitude") ||
+         what.find(" set") != std::string_view::npos || what.find(".parameters.") != std::string_view::npos;
+}
+
 /// Compares results and keeps what differs.
 class Differences {
  public:
@@ -59,7 +70,8 @@ class Differences {
       where_ = what;
     }
     differ(what + ": " + results::to_digits(a, 10) + " and " + results::to_digits(b, 10) +
-           ", relative difference " + results::to_digits(relative, 2));
+               ", relative difference " + results::to_digits(relative, 2),
+           !is_first_of_all(what));
   }
 
   void compare(const std::string& what, const results::Object& a, const results::Object& b) {
@@ -77,14 +89,20 @@ class Differences {
         differ(what + "." + member.key + ": only in the second");
   }
 
-  void differ(std::string sentence) {
-    if (++count_ <= differences_shown) shown_.push_back(std::move(sentence));
+  /// is_derived: it follows from others, which are shown before it.
+  void differ(std::string sentence, bool is_derived = false) {
+    ++count_;
+    auto& list = is_derived ? derived_ : shown_;
+    if (list.size() < differences_shown) list.push_back(std::move(sentence));
   }
 
   std::size_t count() const { return count_; }
   void write(std::ostream& out) const {
-    for (const std::string& sentence : shown_) out << sentence << '\n';
-    if (count_ > shown_.size()) out << "... and " << count_ - shown_.size() << " more\n";
+    std::vector<std::string> all = shown_;
+    for (const std::string& sentence : derived_)
+      if (all.size() < differences_shown) all.push_back(sentence);
+    for (const std::string& sentence : all) out << sentence << '\n';
+    if (count_ > all.size()) out << "... and " << count_ - all.size() << " more\n";
     out << count_ << (count_ == 1 ? " difference" : " differences") << " beyond a relative "
         << results::to_digits(tolerance_, 3) << ", of " << compared_ << " values\n";
     if (largest_ > 0)
@@ -115,7 +133,7 @@ class Differences {
   double tolerance_, largest_ = 0;
   std::size_t count_ = 0, compared_ = 0;
   std::string where_;
-  std::vector<std::string> shown_;
+  std::vector<std::string> shown_{}, derived_{};
 };
 
 /// Rows that pair by their number. Of points the number may differ, as steps do: then their count alone is

@@ -126,6 +126,9 @@ ExitCode plot_results(const CommandOptions& options) {
     const auto data = figure_of(all, schema, options);
     if (!data || data->lines.empty()) continue;
     std::string name = file.stem().string() + "_plot";
+    if (!options.y.empty()) name += "_" + options.y;
+    if (!options.x.empty()) name += "_over_" + options.x;
+    name = output::file_name(name);  // other columns have other files
     if (all.schemas.size() > 1) name += "_" + all.schemas[schema].list;
     const DrawnFigures drawn =
         FiguresOfStudy({folder.empty() ? "." : folder, name}, {*data}, options.figures, writing)

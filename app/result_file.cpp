@@ -193,11 +193,27 @@ void add_columns(const std::vector<Column>& from, std::vector<Column>& to) {
       to.push_back(column);
 }
 
+/// The unit of a fact: that of a column of its name in any table, or that of quantities of responses.
+std::string unit_of_fact(const std::string& name, const Node::Object* units, const std::string& frequency) {
+  if (units != nullptr)
+    for (const auto& table : *units)
+      if (const auto* columns = table.value.get<Node::Object>(); columns != nullptr)
+        if (const std::string unit = text_at(*columns, name); !unit.empty()) return unit;
+  if (name == "frequency") return frequency;
+  if (name == "amplitude" || name == "truncation_estimate") return "m";
+  if (name == "omega") return "rad/s";
+  if (name == "phase") return "rad";
+  return name.starts_with("energy_") ? "J" : "";
+}
+
 /// The first facts: numbers of the optimum, then others that are numbers or texts.
-std::vector<results::Shown> shown_facts(const results::Object& facts) {
+std::vector<results::Shown> shown_facts(const results::Object& facts, const Node::Object* units,
+                                        const std::string& frequency) {
   std::vector<results::Shown> shown;
-  const auto add = [&](std::string title, std::vector<std::string> path) {
-    if (shown.size() < facts_shown) shown.push_back({.title = std::move(title), .path = std::move(path)});
+  const auto add = [&](const std::string& title, std::vector<std::string> path) {
+    if (shown.size() < facts_shown)
+      shown.push_back(
+          {.title = title, .path = std::move(path), .unit = unit_of_fact(title, units, frequency)});
   };
   for (const results::Member& fact : facts) {
     const auto* optimum = std::get_if<results::Object>(&fact.value.get());
@@ -212,18 +228,29 @@ std::vector<results::Shown> shown_facts(const results::Object& facts) {
   return shown;
 }
 
-/// What people are shown of events; of results without them the first facts.
-std::vector<results::Shown> shown_in(const results::Schema& schema, const results::Object& facts) {
+/// The parameter that curves are over: the first column of their points, if it is none of a response.
+std::string parameter_over(const results::Schema& schema) {
+  for (const results::Table& table : schema.tables)
+    if (table.key == "points" && !table.columns.empty())
+      if (const std::string first = results::name(table.columns.front());
+          first != "omega" && first != "frequency")
+        return first;
+  return "";
+}
+
+/// What people are shown of events.
+std::vector<results::Shown> shown_in(const results::Schema& schema) {
   std::vector<results::Shown> shown;
+  const std::string over = parameter_over(schema);
   for (const results::Table& table : schema.tables)
     for (const Column& column : table.columns) {
       const std::string name = results::name(column);
-      const bool is_usual = name == "kind" || name == "frequency" || name == "amplitude" ||
+      const bool is_usual = name == over || name == "kind" || name == "frequency" || name == "amplitude" ||
                             name == "stable" || name == "damping_ratio" || name.ends_with(".stick_percent");
       if (table.key == schema.shown_table && is_usual)
         shown.push_back({.title = name_in_tables(column), .path = column.path, .unit = column.unit});
     }
-  return schema.shown_table.empty() ? shown_facts(facts) : shown;
+  return shown;
 }
 
 /// Adds the results of a list, with a schema of all columns that any of them has.
@@ -246,7 +273,11 @@ void add_list(const std::string& list, const Node::List& objects, const Node::Ob
     for (const results::Member& set : each.result.head.set)
       add_columns({{{set.key}, results::Type::number, set.unit}}, schema.set);
   }
-  schema.shown = shown_in(schema, read.empty() ? results::Object() : read.front().result.end.facts);
+  if (schema.shown_table.empty() && !read.empty())
+    schema.shown =
+        shown_facts(read.front().result.end.facts, object_at(units, list), to.header.frequency_unit);
+  else
+    schema.shown = shown_in(schema);
   for (ResultOfFile& each : read) {
     each.result.schema = to.schemas.size();
     for (const results::Table& table : schema.tables) {

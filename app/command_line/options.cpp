@@ -26,8 +26,11 @@ std::string one_of(const std::vector<std::string>& names, const std::string& wor
   return text + (near.empty() ? "" : "; did you mean " + near + "?");
 }
 
-/// Names the nearest option for one that the verb does not have.
-std::string hint_of_option(const CLI::App& verb, int argc, const char* const* argv) {
+/// The first option that the verb does not have, and the nearest one that it has.
+struct UnknownOption {
+  std::string name, near;
+};
+std::optional<UnknownOption> unknown_option(const CLI::App& verb, int argc, const char* const* argv) {
   std::vector<std::string> known;
   for (const CLI::Option* option : verb.get_options())
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
@@ -35,10 +38,9 @@ std::string hint_of_option(const CLI::App& verb, int argc, const char* const* ar
     std::string word = argv[i];
     word = word.substr(0, word.find('='));
     if (!word.starts_with("--") || std::find(known.begin(), known.end(), word) != known.end()) continue;
-    const std::string near = scene::nearest(word, known);
-    return near.empty() ? "" : "; did you mean " + near + "?";
+    return UnknownOption{word, scene::nearest(word, known)};
   }
-  return "";
+  return {};
 }
 
 void read_new(const CLI::App& of, const Texts& texts, CommandOptions& options) {
@@ -213,7 +215,13 @@ void read_verb(const CLI::App& verb, OptionTree& tree) {
   if (first == new_verb && tree.new_scene->get_subcommands().empty()) throw_kind(argc, argv);
   const CLI::App* parsed = verbs.empty() ? &tree.app : verbs.front();
   if (parsed == tree.new_scene) parsed = parsed->get_subcommands().front();
-  throw UsageError(results::visible(error.what() + hint_of_option(*parsed, argc, argv)) + "\n" + hint);
+  const auto unknown = unknown_option(*parsed, argc, argv);
+  const std::string what = unknown && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr
+                               ? "unknown option " + unknown->name
+                               : error.what();
+  const std::string near = unknown ? unknown->near : "";
+  throw UsageError(results::visible(what + (near.empty() ? "" : "; did you mean " + near + "?")) + "\n" +
+                   hint);
 }
 
 }  // namespace

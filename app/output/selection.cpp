@@ -102,7 +102,10 @@ void check_selection(const Selection& selection, std::span<const results::Schema
     if (has(all, word)) return;
     std::string text;
     for (const std::string& name : all) text += (text.empty() ? "" : ", ") + results::visible(name);
-    const std::string near = scene::nearest(word, all);
+    std::string near = scene::nearest(word, all);
+    const auto longer =
+        std::find_if(all.begin(), all.end(), [&](const auto& name) { return name.starts_with(word); });
+    if (near.empty() && longer != all.end() && !word.empty()) near = *longer;
     throw UsageError(std::string(option) + " " + results::visible(word) + ": must be of " + text +
                      (near.empty() ? "" : "; did you mean " + results::visible(near) + "?"));
   };

@@ -148,8 +148,9 @@ void EnsembleFile::compare(const Contents& contents) {
     const std::string other = fact_in(found.facts, key);
     if (other == value) continue;
     if (key == "scene")
-      throw OtherEnsemble(here + "the scene has changed since: " + first_difference(other, value) +
-                          "; give another --out, or remove the file");
+      throw OtherEnsemble(here +
+                          "the scene has changed since, or an option that stands for one of its keys: " +
+                          first_difference(other, value) + "; give another --out, or remove the file");
     const std::string shown = key == "scene_hash" ? " (a file that it names has changed)" : "";
     throw OtherEnsemble(here + "found samples with " + key + " \"" + results::visible(other) +
                         "\", must be \"" + results::visible(value) + "\"" + shown +

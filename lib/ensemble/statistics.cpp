@@ -191,15 +191,21 @@ std::string digits(double value) {
   return std::isnan(value) ? "-" : results::to_digits(value, 5);
 }
 
+/// The unit with the prefix that suits the numbers of a summary.
+results::PrefixedUnit unit_of(const Summary& of) {
+  return results::prefixed(of.unit, std::max(std::abs(of.least), std::abs(of.largest)));
+}
+
 std::string summaries_text(const std::vector<Summary>& all) {
   std::vector<std::vector<std::string>> rows = {
       {"quantity", "mean", "deviation", "least", "5 %", "median", "95 %", "largest"}};
   for (const Summary& of : all) {
     std::vector<std::string>& row = rows.emplace_back();
-    row.push_back(results::with_unit(of.name, of.unit));
+    const results::PrefixedUnit in = unit_of(of);
+    row.push_back(results::with_unit(of.name, in.unit));
     for (const double value : {of.moments.mean_x, of.moments.deviation(), of.least, of.quantiles[1],
                                of.quantiles[3], of.quantiles[5], of.largest})
-      row.push_back(digits(value));
+      row.push_back(digits(in.factor * value));
   }
   return aligned(rows);
 }
@@ -207,11 +213,13 @@ std::string summaries_text(const std::vector<Summary>& all) {
 std::string histogram_text(const Summary& of) {
   constexpr long widest = 50;
   const long most = *std::max_element(of.histogram.begin(), of.histogram.end());
-  const double width = (of.largest - of.least) / static_cast<double>(bins);
-  std::vector<std::vector<std::string>> rows = {{results::with_unit(of.name, of.unit), "samples"}};
+  const results::PrefixedUnit in = unit_of(of);
+  const double width = in.factor * (of.largest - of.least) / static_cast<double>(bins),
+               least = in.factor * of.least;
+  std::vector<std::vector<std::string>> rows = {{results::with_unit(of.name, in.unit), "samples"}};
   for (std::size_t i = 0; width > 0 && i < bins; ++i)
-    rows.push_back({digits(of.least + width * static_cast<double>(i)) + " to " +
-                        digits(of.least + width * static_cast<double>(i + 1)),
+    rows.push_back({digits(least + width * static_cast<double>(i)) + " to " +
+                        digits(least + width * static_cast<double>(i + 1)),
                     std::to_string(of.histogram[i])});
   std::string text = aligned(rows), with_bars;
   std::size_t line = 0;

@@ -50,7 +50,9 @@ class Parser {
     if (text_.size() > longest_text)
       fail(longest_text, "is longer than " + std::to_string(longest_text) + " characters");
     const int node = comparison();
-    if (!at_end()) fail(at_, "found " + found() + ", " + std::string(wanted_next));
+    if (!at_end())
+      fail(at_, "found " + found() + ", " + std::string(wanted_next) +
+                    (is_after_number() ? "; numbers in formulas have no units, but those of the SI" : ""));
     return node;
   }
 
@@ -290,11 +292,16 @@ class Parser {
     throw FormulaError({FormulaFault::Kind::text, index_, column(at)},
                        "column " + std::to_string(column(at)) + ": " + message);
   }
+  /// Whether a name follows a number, as a unit would.
+  bool is_after_number() const {
+    const auto before = text_.substr(0, at_).find_last_not_of(" \t\n\r");
+    return before != std::string_view::npos && is_digit(text_[before]) && begins_name(text_[at_]);
+  }
   [[noreturn]] void throw_unknown(FormulaFault::Kind kind, std::size_t at, const std::string& name,
                                   const std::string& noun) const {
-    throw FormulaError(
-        {kind, index_, column(at), name},
-        "column " + std::to_string(column(at)) + ": found the unknown " + noun + ' ' + shown(name));
+    throw FormulaError({kind, index_, column(at), name},
+                       "column " + std::to_string(column(at)) + ": found the unknown " + noun + ' ' +
+                           shown(name) + (name == "PI" || name == "Pi" ? " (the constant is \"pi\")" : ""));
   }
 
   std::string_view text_;

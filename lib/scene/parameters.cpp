@@ -248,7 +248,9 @@ void set_text(Scene& scene, std::string_view parameter, const std::string& text)
       throw ParameterError(why);
     change(scene, slot, scene::value(scene, given), given);
   } catch (const formula::FormulaError& error) {
-    throw ParameterError("parameter " + file::quoted(slot.name()) + ": " + error.what());
+    const std::string objection = objection_to_number(text);
+    throw ParameterError("parameter " + file::quoted(slot.name()) + ": " +
+                         (objection.empty() ? error.what() : objection));
   }
 }
 

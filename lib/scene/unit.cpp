@@ -1,13 +1,18 @@
 #include <arcslip/scene/unit.hpp>
 
+#include <arcslip/scene/faults.hpp>
+#include <arcslip/scene/scene.hpp>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <iterator>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace arcslip::scene {
 namespace {
@@ -241,6 +246,50 @@ std::optional<double> value_in(std::string_view number, const Unit& unit, const 
   if (error != std::errc() || end != digits.data() + digits.size()) return {};
   value *= unit.other / wanted.other;
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+namespace {
+
+/// The unit that may be meant by another text: one that differs in capitals, "kg" for "Kg", or in a letter.
+std::string nearest_unit(std::string_view text) {
+  std::vector<std::string> known(std::begin(coherent_units), std::end(coherent_units));
+  known.insert(known.end(),
+               {"g",   "mm",  "cm",  "\u00b5m", "ms",  "kN",  "MN",  "N/mm", "kN/mm", "kN/m", "MN/m",
+                "MPa", "GPa", "kPa", "Hz",      "kHz", "deg", "rpm", "min",  "kg/s",  "mJ",   "kW"});
+  const auto lowered = [](std::string_view word) {
+    std::string all(word);
+    std::transform(all.begin(), all.end(), all.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return all;
+  };
+  for (const std::string& unit : known)
+    if (lowered(unit) == lowered(text)) return unit;
+  return nearest(text, known);
+}
+
+bool has_decimal_comma(std::string_view text) {
+  const auto comma = text.find_first_not_of("+-0123456789");
+  const auto is_digit = [&](std::size_t at) {
+    return at < text.size() && text[at] >= '0' && text[at] <= '9';
+  };
+  return comma != std::string_view::npos && comma > 0 && text[comma] == ',' && is_digit(comma - 1) &&
+         is_digit(comma + 1);
+}
+
+}  // namespace
+
+std::string objection_to_number(std::string_view text) {
+  if (has_decimal_comma(text)) {
+    std::string meant(text);
+    meant[meant.find(',')] = '.';
+    return "found " + file::shown(text) + ", must have a decimal point: " + file::shown(meant);
+  }
+  const auto quantity = split_quantity(text);
+  if (!quantity || unit_of(quantity->unit)) return "";
+  const std::string near = nearest_unit(quantity->unit);
+  return "found the unknown unit " + file::shown(quantity->unit) +
+         ", must be a unit as \"N/m\", \"mm\", or \"N s/m\"" +
+         (near.empty() ? "" : "; did you mean " + file::shown(near) + "?");
 }
 
 }  // namespace arcslip::scene

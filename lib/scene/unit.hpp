@@ -34,6 +34,9 @@ struct Quantity {
 };
 /// None if a text does not begin with a number that something follows which may be a unit: not an operator.
 std::optional<Quantity> split_quantity(std::string_view text);
+/// Why a text that is no formula is no number with a unit, either: a decimal comma, or an unknown unit and
+/// the one that may be meant; "" where it is neither.
+std::string objection_to_number(std::string_view text);
 /// Its value in a unit of the same dimension, with all digits where the factor is a power of ten; none if
 /// `number` is no finite number or the dimensions differ.
 std::optional<double> value_in(std::string_view number, const Unit& unit, const Unit& wanted);

@@ -76,6 +76,18 @@ std::vector<observables::WindowOfStudy> windows_of(const scene::Scene& scene) {
   return all;
 }
 
+namespace {
+
+/// Why no natural frequencies are computed, in parentheses; "" where they are.
+std::string why_unknown(const scene::Scene& scene) {
+  constexpr std::size_t most_dofs = 1000;
+  if (!scene.rotation.empty()) return " (of a rotor none are computed)";
+  if (scene.dofs.size() > most_dofs) return " (above 1000 degrees of freedom none are computed)";
+  return scene.elements.empty() ? "" : " (elements count by their stiffness at rest)";
+}
+
+}  // namespace
+
 std::string propose_window(scene::Scene& scene, std::size_t index, const control::Control& control) {
   scene::Study& study = scene.studies.at(index);
   if (!lacks_window(study)) return "";
@@ -84,8 +96,8 @@ std::string propose_window(scene::Scene& scene, std::size_t index, const control
     throw scene::SceneError(
         {{"/studies/" + std::to_string(index),
           "found no window of frequencies, and none can be proposed, since no natural frequency is known "
-          "that the excitation drives and in which the response moves (of a rotor, or above 1000 degrees of "
-          "freedom, none are computed): give the window"}});
+          "that the excitation drives and in which the response moves" +
+              why_unknown(scene) + ": give the window"}});
   const auto window = window_of(study);
   *window->lower = proposed->lower;
   *window->upper = proposed->upper;

@@ -202,7 +202,7 @@ TEST_CASE("a file is not continued by another scene, study or choice of quantiti
   csv_of(place, {"ensemble", "scene.json", "--out", "a.sqlite"});
   place.write("other.json", scene_with(distributions, 0.6));
   CHECK_THAT(refusal(place, {"ensemble", "other.json", "--out", "a.sqlite"}),
-             Contains("a.sqlite: the scene has changed since: /elements/0/friction_coefficient was 0.5 (a "
+             Contains("a.sqlite: the scene has changed since, or an option that stands for one of its keys: /elements/0/friction_coefficient was 0.5 (a "
                       "number), is 0.6 (a "
                       "number)"));
   CHECK_THAT(refusal(place, {"ensemble", "scene.json", "--set", "m.value=2", "--out", "a.sqlite"}),
@@ -297,7 +297,7 @@ TEST_CASE("a sample that fails is a row with its reason") {
           "\n1,0,failed,\"no periodic response was found at 5 Hz: no spring holds the mean position of"));
   CHECK_THAT(csv, Contains("\n0,4000,complete,") && Contains("\n2,3000,complete,"));
   CHECK_THAT(ended.out,
-             Contains("k.value (N/m)") && Contains("3500"));  // the mean of those that are complete
+             Contains("k.value (kN/m)") && Contains("3.5 "));  // the mean of those that are complete
 }
 
 TEST_CASE("quantities and tables that there are not have near words") {

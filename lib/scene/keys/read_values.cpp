@@ -143,9 +143,8 @@ std::optional<GivenNumber> read_given_number(const Location& place, const Field&
         if (given.follows) return given;
         given.value = formula.value({});
       } catch (const formula::FormulaError& error) {
-        if (quantity)
-          faults.add(place.pointer, "found the unknown unit " + shown(quantity->unit) +
-                                        ", must be a unit as \"N/m\", \"mm\", or \"N s/m\"");
+        if (const std::string objection = objection_to_number(*text); !objection.empty())
+          faults.add(place.pointer, objection);
         else
           add_formula_fault(error, place.pointer, {}, faults);
         return {};

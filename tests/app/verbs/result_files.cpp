@@ -129,7 +129,7 @@ TEST_CASE("a file of results is drawn over chosen columns") {
   const Ended chosen = run(place, {"plot", "a.json", "--y", "damper.stick_percent", "--x", "omega"},
                            {{"PATH", "/nonexistent"}});
   CHECK(chosen.exit_code == 0);
-  CHECK(has(place.read("a_plot.dat"), "stick_percent (%)"));
+  CHECK(has(place.read("a_plot_damper.stick_percent_over_omega.dat"), "stick_percent (%)"));
   const Ended none = run(place, {"plot", "a.json", "--y", "nothing"});
   CHECK(none.exit_code == 1);
   CHECK(has(none.err, "a.json has no table with these columns: give --x and --y"));
@@ -235,4 +235,39 @@ TEST_CASE("a receptance needs a single force of the first harmonic") {
   CHECK(has(refused.err,
             "--receptance divides amplitudes by the force of the scene, which has to have a single "
             "excitation: a force of the first harmonic"));
+}
+
+TEST_CASE("curves are shown with their parameter, optima with prefixes of units") {
+  const Workplace place;
+  REQUIRE(run(place, {"peaks", "scene.json", "--harmonics", "1", "--over", "damper.normal_load=1:10",
+                      "--json", "peaks.json", "--quiet"})
+              .exit_code == 0);
+  const Ended peaks = run(place, {"show", "peaks.json"});
+  CHECK(peaks.exit_code == 0);
+  CHECK(has(peaks.out, "   kind  damper.normal_load (N)  frequency (Hz)  amplitude (mm)"));
+  REQUIRE(run(place, {"optimize", "scene.json", "--harmonics", "1", "--json", "best.json", "--quiet"})
+              .exit_code == 0);
+  const Ended best = run(place, {"show", "best.json"});
+  CHECK(best.exit_code == 0);
+  for (const char* title :
+       {"damper.normal_load (N)", "amplitude (mm)", "frequency (Hz)", "energy_friction (mJ)"}) {
+    CAPTURE(title);
+    CHECK(has(best.out, title));
+  }
+}
+
+TEST_CASE("frequencies and amplitudes that differ are shown before what follows from them") {
+  const Workplace place;
+  write_responses(place);
+  REQUIRE(run(place, {"frf", "scene.json", "--harmonics", "1", "--set", "damper.normal_load=3", "--set",
+                      "k.value=17000", "--json", "b.json", "--quiet"})
+              .exit_code == 0);
+  const Ended ended = run(place, {"compare", "a.json", "b.json"});
+  CHECK(ended.exit_code == 4);
+  const auto parameter = ended.out.find("branches 1.parameters.k.value: "),
+             frequency = ended.out.find("branches 1 event 1.frequency: "),
+             derived = ended.out.find("branches 1 event 1.energy_friction: ");
+  CHECK(parameter < frequency);
+  CHECK(frequency < derived);
+  CHECK(frequency != std::string::npos);
 }

@@ -114,7 +114,7 @@ TEST_CASE("mean, deviation, quantiles, histogram and correlation are those of th
                  WithinAbs(covariance(x, y) / std::sqrt(covariance(x, x) * covariance(y, y)), 1e-10));
     }
   }
-  CHECK_THAT(text, Contains("quantity") && Contains("k.value (N/m)") && Contains("correlation"));
+  CHECK_THAT(text, Contains("quantity") && Contains("k.value (kN/m)") && Contains("correlation"));
 }
 
 TEST_CASE("values that are all the same have no correlation, and one bin") {

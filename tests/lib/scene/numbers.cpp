@@ -149,7 +149,7 @@ TEST_CASE("a text in code is a formula, or a number with a unit") {
   const Scene before = scene;
   for (const auto& [text, message] : {std::pair{"limit", "which is N, must be kg"},
                                       {"3 N", "must be in a unit of the same dimension as kg"},
-                                      {"3 kgg", "column 3"},
+                                      {"3 kgg", "found the unknown unit \"kgg\""},
                                       {"-1", "which is -1, must be at least 0 kg"},
                                       {"m", "which follows itself"}}) {
     CAPTURE(text);

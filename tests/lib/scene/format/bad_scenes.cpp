@@ -194,6 +194,12 @@ void add_numbers(std::vector<BadScene>& rows) {
   with_stiffness("number in another unit", "3 kg",
                  "found \"3 kg\" (a string), must be in a unit of the same dimension as N/m");
   with_stiffness("number in no unit", "3 parsec", "found the unknown unit \"parsec\"");
+  with_stiffness(
+      "number in a unit with another capital", "3 n/m",
+      "found the unknown unit \"n/m\", must be a unit as \"N/m\", \"mm\", or \"N s/m\"; did you mean "
+      "\"N/m\"?");
+  with_stiffness("number with a decimal comma", "3,5 N/m",
+                 "found \"3,5 N/m\", must have a decimal point: \"3.5 N/m\"");
   with_stiffness("number with a unit out of bounds", "-3 kN/m", "found -3000, must be above 0 N/m");
   with_stiffness("formula with an unknown name", "2*kk",
                  "column 3: found the unknown name \"kk\", must be one of \"m.value\"");
@@ -204,7 +210,8 @@ void add_numbers(std::vector<BadScene>& rows) {
   with_stiffness("formula in kg", "m", "found \"m\", which is kg, must be N/m");
   with_stiffness("formula that adds kg to N/m", "k + m", "which adds or compares N/m and kg");
   with_stiffness("formula out of bounds", "-k", "found \"-k\", which is -100, must be above 0 N/m");
-  with_stiffness("formula that divides by 0", "k^2/(k - k)", "which is no finite number, must be above 0 N/m");
+  with_stiffness("formula that divides by 0", "k^2/(k - k)",
+                 "which is no finite number, must be above 0 N/m");
   with_stiffness("empty formula", "", "column 1: ends, must be");
   rows.push_back({"formula where none is followed",
                   good_scene_with("\"response\"", "\"harmonics\": {\"accuracy\": \"k\"}, \"response\""),
