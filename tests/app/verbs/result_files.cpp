@@ -239,13 +239,14 @@ TEST_CASE("a receptance needs a single force of the first harmonic") {
 
 TEST_CASE("curves are shown with their parameter, optima with prefixes of units") {
   const Workplace place;
-  REQUIRE(run(place, {"peaks", "scene.json", "--harmonics", "1", "--over", "damper.normal_load=1:10",
-                      "--json", "peaks.json", "--quiet"})
+  REQUIRE(run(place, {"peaks", "scene.json", "--harmonics", "1", "--over", "damper.normal_load", "--from",
+                      "1", "--to", "10", "--frequency", "18", "22", "--json", "peaks.json", "--quiet"})
               .exit_code == 0);
   const Ended peaks = run(place, {"show", "peaks.json"});
   CHECK(peaks.exit_code == 0);
   CHECK(has(peaks.out, "   kind  damper.normal_load (N)  frequency (Hz)  amplitude (mm)"));
-  REQUIRE(run(place, {"optimize", "scene.json", "--harmonics", "1", "--json", "best.json", "--quiet"})
+  REQUIRE(run(place, {"optimize", "scene.json", "--harmonics", "1", "--over", "damper.normal_load=1:10",
+                      "--frequency", "18", "22", "--json", "best.json", "--quiet"})
               .exit_code == 0);
   const Ended best = run(place, {"show", "best.json"});
   CHECK(best.exit_code == 0);
