@@ -87,8 +87,11 @@ class Result(Named):
     @property
     def labels(self) -> dict[str, str]:
         """The label of an axis for each column of the main table: "amplitude (m)", or as the scene has it."""
-        units = self.units
-        return {name: _label(name, units.get(name, ""), self._labels) for name in self.main.columns}
+        return {name: _label(*self._words(name)) for name in self.main.columns}
+
+    def _words(self, name: str) -> tuple[str, str]:
+        """Return the words for a column of the main table, as the scene has them, and its unit."""
+        return self._labels.get(name, name), self.units.get(name, "")
 
     @property
     def main(self) -> Table:
@@ -388,9 +391,8 @@ class Results(Sequence[Result]):
 HEADER = ("program", "scene_hash", "title", "frequency_unit", "notes", "reduction")
 
 
-def _label(name: str, unit: str, labels: Mapping[str, str]) -> str:
-    label = labels.get(name, name)
-    return f"{label} ({unit})" if unit not in ("", "-") and name not in labels else label
+def _label(words: str, unit: str) -> str:
+    return f"{words} ({unit})" if unit not in ("", "-") else words
 
 
 def link(results: Sequence[Result], lists: Sequence[str], parents: Sequence[int]) -> None:

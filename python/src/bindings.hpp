@@ -16,5 +16,6 @@ void bind_studies(nanobind::module_& core);
 void bind_scene(nanobind::module_& core);
 void bind_results(nanobind::module_& core);
 void bind_ensembles(nanobind::module_& core);
+void bind_figures(nanobind::module_& core);
 
 }  // namespace arcslip::python

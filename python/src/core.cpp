@@ -14,4 +14,5 @@ NB_MODULE(_core, core) {
   arcslip::python::bind_results(core);
   arcslip::python::bind_scene(core);
   arcslip::python::bind_ensembles(core);
+  arcslip::python::bind_figures(core);
 }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -16,7 +15,8 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 import arcslip
-from arcslip.views.marks import MARKS
+from arcslip import _core
+from arcslip.views.backend import draw_figure
 
 matplotlib.use("agg")
 OVER_LOAD = {"over": "damper.normal_load", "from_": 1.0, "to": 6.0}
@@ -60,7 +60,7 @@ def test_each_kind_has_its_axes(scene: arcslip.Scene, kind: str, keys: dict[str,
     result = results[0]
     ax = result.plot()
     assert isinstance(ax, Axes)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == (result.labels[x], result.labels[y])
+    assert [label.split(" (")[0] for label in (ax.get_xlabel(), ax.get_ylabel())] == [x, y]
     assert "(" in ax.get_xlabel() and "(" in ax.get_ylabel()
     assert set(zip(result[x], result[y], strict=True)) <= drawn(ax)
     assert len(lines(results.plot(), "-")) >= len(results)
@@ -92,37 +92,57 @@ def test_events_are_marked_and_labelled(scene: arcslip.Scene) -> None:
     ax = branch.plot()
     (peak,) = branch.events["peak"]
     assert (peak.frequency, peak.amplitude) in drawn(ax, "None")
-    assert labels(ax) == [MARKS["peak"].words] and ax.get_legend() is not None
+    assert labels(ax) == ["resonance peak"] and ax.get_legend() is not None
     assert ax.get_yscale() == "log" and ax.get_xscale() == "linear"
 
 
-def test_marks_are_those_of_the_command(examples: Path) -> None:
-    root = examples.parent
-    text = "".join((root / file).read_text() for file in ["lib/results/event_kinds.hpp", "optimize/curve/optimum_curve.hpp"])
-    found = {
-        kind: (words, mark)
-        for kind, words, mark in re.findall(r'EventKind \w+\{\s*"(\w+)",\s*"([^"]*)",\s*(\{[^}]*\}|[\w:]+\.mark)', text)
-    }
-    markers = {"circle": "o", "square": "s", "triangle": "^", "inverted_triangle": "v", "diamond": "D", "pentagon": "p"}
-    markers |= {"cross": "x", "star": "*", "plus": "+"}
-    marked = {}
-    for kind, (words, mark) in found.items():
-        shape = re.search(r"Shape::(filled_)?(\w+)", found["turn"][1] if mark.endswith("turn.mark") else mark)
-        if shape:
-            marked[kind] = (markers[shape[2]], bool(shape[1]), words)
-    assert len(marked) > 10 and marked == MARKS
+@pytest.mark.parametrize(
+    ("kind", "marker", "filled"),
+    [("peak", "o", True), ("fold", "s", False), ("period_doubling", "^", False), ("jump", "*", False), ("turning_point", "s", True)],
+)
+def test_marks_are_those_of_the_command(kind: str, marker: str, filled: bool) -> None:
+    part = np.array([[1.0, 2.0], [3.0, 4.0]])
+    line = {"label": "", "parts": [part], "unstable": [False], "marks": {kind: part, "unknown": part}}
+    column = {"words": "a", "unit": "", "scale": "linear"}
+    ax = pyplot.subplots()[1]
+    draw_figure(ax, _core.figure({"columns": [column, column], "lines": [line], "parameters": []}, 800, 500))
+    marks = lines(ax, "None")
+    assert {(mark.get_marker(), mark.get_fillstyle() == "full") for mark in marks} == {(marker, filled)}
+    assert drawn(ax, "None") == {(1.0, 2.0), (3.0, 4.0)}
+    assert labels(ax) == [kind.replace("_", " ") if kind != "peak" else "resonance peak"]
 
 
 def test_results_have_a_colour_for_each_setting(scene: arcslip.Scene) -> None:
     responses = scene.frf(for_each={"damper.normal_load": [1.0, 4.0]})
     ax = responses.plot()
-    assert labels(ax)[:2] == ["damper.normal_load = 1 N", "damper.normal_load = 4 N"]
+    assert labels(ax) == ["1 N", "4 N", "resonance peak"]
+    legend = ax.get_legend()
+    assert legend is not None and legend.get_title().get_text() == "damper.normal_load"
     assert len({line.get_color() for line in lines(ax, "-")}) == 2
-    many = scene.frf(for_each={"damper.normal_load": np.linspace(1, 6, 12)})
-    ax = many.plot()
-    assert labels(ax) == [MARKS["peak"].words]
-    assert [other.get_ylabel() for other in ax.figure.axes if other is not ax] == ["damper.normal_load (N)"]
-    assert len({tuple(line.get_color()) for line in lines(ax, "-")}) == 12
+    assert {text.get_text() for text in ax.texts} == {"1 N", "4 N"}  # next to their curves
+    two = scene.frf(for_each={"damper.normal_load": [1.0, 4.0], "c.value": [1.0, 2.0]}).plot()
+    assert labels(two)[0] == "1 N, 1 N s/m"
+
+
+def test_axes_have_a_prefix_that_suits_their_numbers(scene: arcslip.Scene) -> None:
+    (branch,) = scene.frf()
+    ax = branch.plot()
+    ax.figure.canvas.draw()
+    assert ax.get_ylabel() == "amplitude (mm)" and ax.get_xlabel() == "frequency (Hz)"
+    ticks = [(float(text.get_text()), text.get_position()[1]) for text in ax.get_yticklabels() if text.get_text()]
+    assert ticks and all(shown == pytest.approx(1e3 * value, rel=1e-5) for shown, value in ticks)
+
+
+def test_hundreds_of_curves_are_bands_and_say_so(scene: arcslip.Scene) -> None:
+    loads = np.linspace(1, 6, 250)
+    responses = scene.frf(for_each={"damper.normal_load": loads}, from_=15.0, to=20.0)
+    ax = responses.plot()
+    assert ax.get_title().startswith("250 curves: their median, and bands")
+    assert labels(ax) == ["median", "nine tenths of the curves", "a half of them"]
+    (median,) = lines(ax, "-")
+    at, height = median.get_data()
+    expected = [np.median([np.interp(x, each.frequency, each.amplitude) for each in responses]) for x in at[5:-5:20]]
+    np.testing.assert_allclose(height[5:-5:20], expected, rtol=0.02)
 
 
 def test_long_legend_stands_at_the_side(scene: arcslip.Scene) -> None:
@@ -143,7 +163,7 @@ def test_sweep_is_interrupted_at_its_jumps(examples: Path) -> None:
     ends = [line.get_xdata()[-1] for line in lines(ax, "-")]  # type: ignore[index]
     assert ends[0] == jump.frequency and len(ends) == 2
     assert {(jump.frequency, jump.amplitude), (jump.frequency_after, jump.amplitude_after)} <= drawn(ax, "None")
-    assert labels(sweeps.plot()) == ["up", "down", MARKS["jump"].words]
+    assert labels(sweeps.plot()) == ["up", "down", "jump"]
 
 
 def test_search_is_drawn_with_its_optimum_and_tolerances(examples: Path) -> None:
@@ -155,7 +175,7 @@ def test_search_is_drawn_with_its_optimum_and_tolerances(examples: Path) -> None
     for each in optimum.ranges["damper.normal_load"]:
         assert (each.upper, (1 + each.share) * optimum.amplitude) in drawn(ax, "None")
     assert set(labels(ax)) == {"designs evaluated", "optimum", "within 1 %", "within 5 %"}
-    assert ax.get_xlabel() == "damper.normal_load (N)" and ax.get_ylabel() == "amplitude (m)"
+    assert ax.get_xlabel() == "damper.normal_load (N)" and ax.get_ylabel() == "amplitude (mm)"
 
 
 def test_search_over_several_parameters_is_drawn_over_its_evaluations(examples: Path) -> None:

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import _core
 from ..extras import required
-from .marks import MARKS
+from .backend import draw_figure, pixels, plain, set_axis
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,8 +39,6 @@ LOGARITHMIC = ("frf", "sweep")
 LINEAR = ("frequency", "omega", "damping_ratio", "time", "angle")
 #: A legend of more entries stands at the side of a figure of its own.
 MOST_INSIDE = 5
-#: More settings than this have a bar of colours in place of a legend.
-MOST_LABELS = 10
 
 
 class Part(NamedTuple):
@@ -74,11 +73,13 @@ def draw(results: Sequence[Result], ax: Axes | None, x: str | None, y: str | Non
         _draw_optima(drawn, cast("Sequence[Optimum]", results))
     else:
         _draw_lines(drawn, results, *columns)
-    count = len(drawn.get_legend_handles_labels()[1])
-    if ax is None and count > MOST_INSIDE:
-        drawn.legend(loc="upper left", bbox_to_anchor=(1, 1))
-    elif count > 0:
-        drawn.legend()
+    handles, labels = drawn.get_legend_handles_labels()
+    before = drawn.get_legend()
+    title = before.get_title().get_text() if before is not None else ""
+    if ax is None and len(handles) > MOST_INSIDE:
+        drawn.legend(loc="upper left", bbox_to_anchor=(1, 1), title=title)
+    elif labels:
+        drawn.legend(title=title)
     return drawn
 
 
@@ -152,61 +153,44 @@ def _parts(result: Result, x: str, y: str) -> Iterator[Part]:
 
 
 def _draw_lines(ax: Axes, results: Sequence[Result], x: str, y: str) -> None:
-    colours = _colours(ax, results)
-    labelled: set[object] = set()
-    explained: dict[str, dict[str, Any]] = {}
+    lines: dict[tuple[tuple[str, Any], ...], list[Result]] = {}
     for result in results:
-        line = _line(result)
-        label = "_" if line in labelled or not 1 < len(colours) <= MOST_LABELS else _label(result)
-        labelled.add(line)
-        for part in _parts(result, x, y):
-            style: dict[str, Any] = {"linestyle": "--" if part.unstable else "-", "linewidth": 1.2}
-            ax.plot(part.x, part.y, color=colours[line], label=label, **style)
-            label = "_"
-            if part.unstable:
-                explained["unstable"] = style
-        explained |= _mark_events(ax, result, x, y, colours[line])
-    for words, style in explained.items():
-        ax.plot([], [], color="0.3", label=words, **style)
-    for axis, name in (("x", x), ("y", y)):
-        _set_axis(ax, axis, results, name)
+        lines.setdefault(_line(result), []).append(result)
+    parameters = list(dict.fromkeys(name for result in results for name in result.set)) if len(lines) > 1 else []
+    data = {
+        "columns": [_column(results, name) for name in (x, y)],
+        "lines": [_line_data(of, x, y, is_labelled=len(lines) > 1) for of in lines.values()],
+        "parameters": parameters,
+    }
+    draw_figure(ax, _core.figure(data, *pixels(ax)))
 
 
-def _mark_events(ax: Axes, result: Result, x: str, y: str, colour: Any) -> dict[str, dict[str, Any]]:
-    """Mark the events of kinds that have a mark, but for the ends of a curve of their own kind; return words and styles."""
-    at, after_jump = _at_events(result, x, y), _at_events(result, f"{x}_after", f"{y}_after")
-    if at is None or "kind" not in result.events:
-        return {}
-    kinds = result.events.kind
-    styles: dict[str, dict[str, Any]] = {}
-    for kind in dict.fromkeys(kinds.tolist()):
-        if kind not in MARKS or kind == result.facts.get("of"):
+def _column(results: Sequence[Result], name: str) -> dict[str, str]:
+    words, unit = results[0]._words(name)
+    scale = "percent" if unit == "%" else "logarithmic" if _is_logarithmic(results, name) else "linear"
+    return {"words": words, "unit": unit, "scale": scale}
+
+
+def _line_data(results: Sequence[Result], x: str, y: str, *, is_labelled: bool) -> dict[str, Any]:
+    """Return the results that share a line as data of a figure: parts, and events but for those that curves are made of."""
+    parts = [part for result in results for part in _parts(result, x, y)]
+    marks: dict[str, list[NDArray[np.float64]]] = {}
+    for result in results:
+        if "kind" not in result.tables.get("events", ()):
             continue
-        mark = MARKS[kind]
-        styles[mark.words] = {
-            "linestyle": "none",
-            "marker": mark.marker,
-            "fillstyle": "full" if mark.filled else "none",
-            "markersize": 6,
-        }
-        for places in (at, after_jump):
-            if places is not None:
-                ax.plot(*places[:, kinds == kind], color=colour, label="_", **styles[mark.words])
-    return styles
-
-
-def _set_axis(ax: Axes, axis: str, results: Sequence[Result], name: str) -> None:
-    ax.set(**{f"{axis}label": _plain(results[0].labels.get(name, name))})
-    if _is_logarithmic(results, name):
-        ax.set(**{f"{axis}scale": "log"})
-    formatter = getattr(ax, f"{axis}axis").get_major_formatter()
-    if hasattr(formatter, "set_powerlimits"):
-        formatter.set_powerlimits((-3, 4))
-
-
-def _plain(text: str) -> str:
-    """Return a text in which matplotlib finds no formulas."""
-    return text.replace("$", r"\$")
+        kinds = result.events.kind
+        for places in (_at_events(result, x, y), _at_events(result, f"{x}_after", f"{y}_after")):
+            if places is None:
+                continue
+            for kind in dict.fromkeys(kinds.tolist()):
+                if kind != result.facts.get("of"):
+                    marks.setdefault(kind, []).append(places[:, kinds == kind])
+    return {
+        "label": _label(results[0]) if is_labelled else "",
+        "parts": [np.stack([part.x, part.y], axis=1) for part in parts],
+        "unstable": [part.unstable for part in parts],
+        "marks": {kind: np.ascontiguousarray(np.concatenate(places, axis=1).T) for kind, places in marks.items()},
+    }
 
 
 def _is_logarithmic(results: Sequence[Result], name: str) -> bool:
@@ -225,29 +209,12 @@ def _line(result: Result) -> tuple[tuple[str, Any], ...]:
 
 
 def _label(result: Result) -> str:
-    parts = []
-    for name, value in _line(result):
-        if isinstance(value, str):
-            parts.append(MARKS[value].words if value in MARKS else value)
-        else:
-            parts.append(f"{name} = {value:.6g} {result.set_units.get(name, '')}".rstrip(" -"))
-    return _plain(", ".join(parts))
-
-
-def _colours(ax: Axes, results: Sequence[Result]) -> dict[tuple[tuple[str, Any], ...], Any]:
-    """Return a colour for each line; for many values of one parameter along a bar of colours."""
-    lines = list(dict.fromkeys(_line(result) for result in results))
-    if len(lines) <= MOST_LABELS or any(len(line) != 1 or isinstance(line[0][1], str) for line in lines):
-        return {line: f"C{i % 10}" for i, line in enumerate(lines)}
-    colours, cm = required("matplotlib.colors", "plot"), required("matplotlib.cm", "plot")
-    name = lines[0][0][0]
-    values = [line[0][1] for line in lines]
-    decades = min(values) > 0 and max(values) > 10 * min(values)
-    norm = (colours.LogNorm if decades else colours.Normalize)(min(values), max(values))
-    scale = cm.ScalarMappable(norm, "viridis")
-    unit = results[0].set_units.get(name, "")
-    ax.figure.colorbar(scale, ax=ax, label=_plain(f"{name} ({unit})" if unit not in ("", "-") else name))
-    return {line: scale.to_rgba(value) for line, value in zip(lines, values, strict=True)}
+    """Return the values that distinguish a line: "3 N, 0.1 N s/m"."""
+    words = [
+        value.replace("_", " ") if isinstance(value, str) else f"{value:.6g} {result.set_units.get(name, '')}".rstrip(" -")
+        for name, value in _line(result)
+    ]
+    return ", ".join(words)
 
 
 def _draw_optima(ax: Axes, results: Sequence[Optimum]) -> None:
@@ -257,17 +224,22 @@ def _draw_optima(ax: Axes, results: Sequence[Optimum]) -> None:
         amplitude = _numbers(optimum.course, "amplitude")
         at = np.arange(1, len(amplitude) + 1.0) if one is None else _numbers(optimum.course, one)
         colour = f"C{i % 10}"
-        ax.plot(at, amplitude, ".", color=colour, label=_label(optimum) or "designs evaluated")
+        ax.plot(at, amplitude, ".", color=colour, label=plain(_label(optimum)) or "designs evaluated")
         if one is not None and one in optimum.design:
             ax.plot(optimum.design[one], optimum.amplitude, "*", color=colour, markersize=11, label="_" if i else "optimum")
             _draw_ranges(ax, optimum, one, colour, is_labelled=i == 0)
         elif optimum.design:
             ax.axhline(optimum.amplitude, color=colour, linewidth=0.8, label="_" if i else "optimum")
+    amplitudes = _column(results, "amplitude")
     if one is None:
         ax.set_xlabel("evaluation")
-    else:
-        _set_axis(ax, "x", results, one)
-    _set_axis(ax, "y", results, "amplitude")
+    axes = [_column(results, one) if one else {"words": "", "unit": "", "scale": "linear"}, amplitudes]
+    values = np.stack([_numbers(results[0].main, one or "amplitude"), _numbers(results[0].main, "amplitude")], axis=1)
+    lines = [{"label": "", "parts": [values], "unstable": [False], "marks": {}}]
+    figure = _core.figure({"columns": axes, "lines": lines, "parameters": []}, *pixels(ax))
+    if one is not None:
+        set_axis(ax, "x", figure["x"])
+    set_axis(ax, "y", figure["y"])
 
 
 def _draw_ranges(ax: Axes, optimum: Optimum, parameter: str, colour: str, *, is_labelled: bool) -> None:
