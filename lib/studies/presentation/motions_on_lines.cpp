@@ -46,13 +46,6 @@ std::vector<Chosen> chosen_points(const std::vector<const ResponseBranch*>& bran
   return all;
 }
 
-/// The scene with the harmonics of a branch.
-scene::Scene scene_of(scene::Scene scene, const ResponseBranch& branch) {
-  if (!branch.harmonics.empty()) scene.harmonics.order = branch.harmonics.back();
-  scene.harmonics.period = branch.period;
-  return scene;
-}
-
 }  // namespace
 
 std::vector<FigureMotion> motions_on(const scene::Scene& scene,
@@ -64,8 +57,7 @@ std::vector<FigureMotion> motions_on(const scene::Scene& scene,
   std::vector<FigureMotion> motions;
   for (const Chosen& each : chosen_points(branches, std::min(most, most_of_a_line))) {
     try {
-      const observables::History history =
-          observables::history(scene_of(scene, *each.branch), *each.branch, *each.point, angles);
+      const observables::History history = observables::history(scene, *each.branch, *each.point, angles);
       FigureMotion motion{.record = record(*each.point),
                           .words = each.words,
                           .period = 2 * std::numbers::pi / history.base_frequency,
