@@ -100,7 +100,7 @@ void add_symbols(const FigureData& data, const FigureView& view, std::size_t i, 
     const auto other = std::find_if(figure.symbols.begin() + static_cast<std::ptrdiff_t>(first),
                                     figure.symbols.end(), covers);
     if (other == figure.symbols.end())
-      figure.symbols.push_back({mark.kind, colour, i, x, y});
+      figure.symbols.push_back({mark.kind, colour, i, x, y, 1, mark.label});
     else
       ++other->count;
   }
@@ -193,7 +193,7 @@ Figure figure_of(const FigureData& data, const FigureView& view, const FigureSty
   }
   figure.key_title = data.parameters;
   add_lines(data, view, style, figure);
-  add_texts(data, style, figure);
+  add_texts(style, figure);
   return figure;
 }
 

@@ -27,6 +27,6 @@ void add_quantiles(const results::FigureData& data, const results::FigureView& v
                    const results::FigureStyle& style, results::Figure& figure);
 
 /// Adds texts next to marks and curves where there is room.
-void add_texts(const results::FigureData& data, const results::FigureStyle& style, results::Figure& figure);
+void add_texts(const results::FigureStyle& style, results::Figure& figure);
 
 }  // namespace arcslip::figures

@@ -52,9 +52,9 @@ class Writer {
 };
 
 /// What a mark says of itself, or the name of its curve.
-std::string text_of(const FigureSymbol& symbol, const std::string& own, const std::string& of_curve) {
+std::string text_of(const FigureSymbol& symbol, const std::string& of_curve) {
   if (symbol.count > 1) return std::to_string(symbol.count) + " × " + std::string(symbol.kind.words);
-  if (!own.empty()) return own;
+  if (!symbol.text.empty()) return symbol.text;
   if (!symbol.kind.mark.label.empty()) return std::string(symbol.kind.mark.label);
   return symbol.kind.mark.labelled ? of_curve : std::string();
 }
@@ -65,16 +65,9 @@ const FigureCurve* curve_of(const Figure& figure, std::size_t line) {
   return found == figure.curves.end() ? nullptr : &*found;
 }
 
-/// The label that the data give to a mark.
-std::string own_label(const results::FigureData& data, const FigureSymbol& symbol) {
-  for (const results::FigureMark& mark : data.lines[symbol.line].marks)
-    if (mark.kind == symbol.kind && !mark.label.empty()) return mark.label;
-  return "";
-}
-
 }  // namespace
 
-void add_texts(const results::FigureData& data, const results::FigureStyle& style, Figure& figure) {
+void add_texts(const results::FigureStyle& style, Figure& figure) {
   constexpr double usual_width = 800, usual_height = 500;
   const LabelMetrics usual;
   Writer writer(figure, {usual.character_width * usual_width / style.width,
@@ -86,7 +79,7 @@ void add_texts(const results::FigureData& data, const results::FigureStyle& styl
                    [](const FigureSymbol* a, const FigureSymbol* b) { return a->y > b->y; });
   for (const FigureSymbol* symbol : highest_first) {
     const FigureCurve* curve = curve_of(figure, symbol->line);
-    const std::string text = text_of(*symbol, own_label(data, *symbol), curve == nullptr ? "" : curve->name);
+    const std::string text = text_of(*symbol, curve == nullptr ? "" : curve->name);
     if (text.empty() || written.contains({symbol->line, text})) continue;
     if (writer.write(text, symbol->colour, symbol->x, symbol->y)) written.insert({symbol->line, text});
   }

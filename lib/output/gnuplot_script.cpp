@@ -21,7 +21,7 @@ using results::FigureStretch;
 using results::FigureSymbol;
 using results::shortest;
 
-constexpr int longest_title = 76;  // characters across a figure of the usual width
+constexpr int longest_title = 64;  // characters across a figure of the usual width
 
 /// A text in single quotes for gnuplot. Characters that are invalid in XML or unsafe for a terminal are
 /// escaped (results/text.hpp).

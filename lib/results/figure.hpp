@@ -60,6 +60,7 @@ struct FigureSymbol {
   std::size_t line = 0;
   double x = 0, y = 0;
   std::size_t count = 1;
+  std::string text{};  // what it says of itself; empty: the name of its curve
 };
 
 /// A text next to a place.

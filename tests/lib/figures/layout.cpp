@@ -138,6 +138,17 @@ TEST_CASE("marks that would cover each other are one, with their count") {
   CHECK(key_of(figure) == std::vector<std::string>{"1 N", "fold"});
 }
 
+TEST_CASE("a mark with words of its own has them, and no other mark of its kind does") {
+  FigureData data = slopes({1});
+  data.lines[0].marks.push_back({event_kinds::minimum, {0.2, 1.2}, "0.2 N"});
+  data.lines[0].marks.push_back({event_kinds::minimum, {0.8, 1.8}});
+  const Figure figure = first_of(data);
+  const auto text = std::find_if(figure.texts.begin(), figure.texts.end(),
+                                 [](const results::FigureText& each) { return each.text == "0.2 N"; });
+  REQUIRE(text != figure.texts.end());
+  CHECK(text->x == 0.2);
+}
+
 TEST_CASE("a main curve is drawn before the others, wider and dark") {
   FigureData data = slopes({1, 2, 3});
   data.lines[0].is_main = true;
@@ -154,7 +165,7 @@ TEST_CASE("many curves are drawn as their median and quantile bands, which the f
   for (int i = 1; i <= 2001; ++i) heights.push_back(i);
   const FigureData data = slopes(heights);
   const Figure figure = first_of(data);
-  CHECK(figure.note == "2001 curves: their median, and bands that hold a half and nine tenths of them");
+  CHECK(figure.note == "median and bands of a half and nine tenths of 2001 curves");
   REQUIRE(figure.curves.size() == 1);
   const auto& median = figure.curves.front();
   for (std::size_t i = 0; i < median.x.size(); ++i)
