@@ -432,3 +432,19 @@ TEST_CASE("one gnuplot draws the figures of several sets of curves, while the ca
   const std::string started = content(folder / "started");
   CHECK(std::count(started.begin(), started.end(), '\n') == 1);
 }
+
+TEST_CASE("motions of several periods and isolated branches are lines of their own, with names") {
+  auto twice = support::branch(), apart = support::branch();
+  twice.period = 2;
+  apart.isolated = true;
+  const auto data = studies::figures_of(support::scene(), BranchKind::responses,
+                                        std::vector{support::branch(), twice, apart});
+  REQUIRE(data.lines.size() == 3);
+  CHECK(data.lines[0].label == "1 period, 3 N");
+  CHECK(data.lines[1].label == "2 periods, 3 N");
+  CHECK(data.lines[2].label == "1 period, isolated, 3 N");
+  const auto alike = studies::figures_of(support::scene(), BranchKind::responses,
+                                         std::vector{support::branch(), support::branch()});
+  REQUIRE(alike.lines.size() == 1);
+  CHECK(alike.lines[0].label == "3 N");
+}
