@@ -79,7 +79,7 @@ void add_quantiles(const FigureData& data, const FigureView& view, const results
           {at[i], quantile(columns[i], bands[k].share), quantile(columns[i], 1 - bands[k].share)});
   }
   median.stretches = {{0, median.x.size(), false}};
-  figure.note = "median and bands of a half and nine tenths of " + count + " curves";
+  figure.note = count + " curves: their median, and bands of a half and nine tenths";
   figure.key.push_back({.of = results::FigureKeyEntry::Of::curve, .text = "median", .colour = colour});
   figure.curves.push_back(std::move(median));
   for (std::size_t k = 0; k < std::size(bands); ++k) {

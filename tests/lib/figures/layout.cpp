@@ -165,7 +165,7 @@ TEST_CASE("many curves are drawn as their median and quantile bands, which the f
   for (int i = 1; i <= 2001; ++i) heights.push_back(i);
   const FigureData data = slopes(heights);
   const Figure figure = first_of(data);
-  CHECK(figure.note == "median and bands of a half and nine tenths of 2001 curves");
+  CHECK(figure.note == "2001 curves: their median, and bands of a half and nine tenths");
   REQUIRE(figure.curves.size() == 1);
   const auto& median = figure.curves.front();
   for (std::size_t i = 0; i < median.x.size(); ++i)
