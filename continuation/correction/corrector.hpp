@@ -113,6 +113,7 @@ class Corrector {
   Vector border_row(const Vector& t) const;
   double parameter_scale() const { return parameter_scale_; }
   int free() const { return free_; }
+  const Problem& problem() const { return problem_; }
   const Vector& parameters() const { return p_; }
   /// Why the last evaluation failed: the exception of the problem, or the misuse. Empty: the problem returned
   /// the failure itself.

@@ -20,7 +20,7 @@ bool settle(Corrector& at, CurvePoint& place) {
 Accepted accepted(Corrector& at, const CurvePoint& place) {
   const Eigen::Index n = place.v.size() - 1;
   return {place.v.head(n), at.parameters(), place.tangent, place.arclength, at.evaluator(),
-          at.factors(),    place.v[n],      at.scratch(),  at.free()};
+          at.factors(),    place.v[n],      at.scratch(),  at.free(),       &at.problem()};
 }
 
 void evaluate(const std::vector<Monitor>& monitors, Corrector& at, CurvePoint& place) {

@@ -1,13 +1,17 @@
 #include <arcslip/continuation/events/hopf.hpp>
 
 #include <arcslip/continuation/events/hopf_refinement.hpp>
+#include <arcslip/continuation/events/place_of_event.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/continuation/normal_forms/hopf_form.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace arcslip::continuation {
 namespace {
@@ -27,18 +31,27 @@ class Spectrum {
 
   // Of the k-th eigenvalue, on the imaginary axis to rounding. The order of pairs that cross together depends
   // on rounding: they are sorted by frequency, lowest first.
-  EventData hopf(const Jacobian& jacobian, std::size_t k, const Vector& scales) {
-    const auto found = crossing(jacobian, k);
-    return found ? described(found->frequency, found->z, scales) : EventData();
+  EventData hopf(const Accepted& now, std::size_t k, const Vector& scales, const HopfOptions& options) {
+    const auto found = crossing(now.at.jacobian(), k);
+    if (!found) return {};
+    Hopf data = described(found->frequency, found->z, scales);
+    if (options.normal_form && found->separate) add_normal_form(now.at, place_of_event(now), data);
+    return data;
   }
 
   // The same by its own equations, unless pairs of one frequency cross together.
-  std::optional<RefinedEvent> refined(const Accepted& now, std::size_t k, const Vector& scales) {
+  std::optional<RefinedEvent> refined(const Accepted& now, std::size_t k, const Vector& scales,
+                                      const HopfOptions& options) {
     const auto found = crossing(now.at.jacobian(), k);
     if (!found || !found->separate) return {};
     const auto better = refine_hopf(now, found->frequency, found->z, scales);
     if (!better) return {};
-    return RefinedEvent{better->x, described(better->frequency, better->z, scales)};
+    Hopf data = described(better->frequency, better->z, scales);
+    PlaceOfForms place = place_of_event(now);
+    place.u = better->x.head(now.u.size());
+    place.p[now.free] = better->x[now.u.size()];
+    if (options.normal_form) add_normal_form(now.at, place, data);
+    return RefinedEvent{better->x, std::move(data)};
   }
 
  private:
@@ -92,7 +105,7 @@ class Spectrum {
     return CrossingPair{frequency, modes.V.col(pairs[rank]), equal == 1};
   }
 
-  static EventData described(double frequency, const Eigen::VectorXcd& vector, const Vector& scales) {
+  static Hopf described(double frequency, const Eigen::VectorXcd& vector, const Vector& scales) {
     Eigen::VectorXcd z = vector.cwiseQuotient(scales.cast<std::complex<double>>());
     z /= z.norm();
     // By the phase that makes sum z_i^2 = |a|^2 - |b|^2 + 2i a . b real and not negative.
@@ -100,7 +113,11 @@ class Spectrum {
     Eigen::Index largest;
     z.real().cwiseAbs().maxCoeff(&largest);
     if (z[largest].real() < 0) z = -z;
-    return Hopf{frequency, z.real().cwiseProduct(scales), z.imag().cwiseProduct(scales)};
+    Hopf hopf;
+    hopf.frequency = frequency;
+    hopf.real = z.real().cwiseProduct(scales);
+    hopf.imaginary = z.imag().cwiseProduct(scales);
+    return hopf;
   }
 
   Matrix J_, at_;
@@ -121,7 +138,7 @@ void to_dense(const Jacobian& J, Matrix& dense) {
         "sparse Jacobian");
 }
 
-std::vector<Monitor> hopf_monitors(const Problem& problem) {
+std::vector<Monitor> hopf_monitors(const Problem& problem, const HopfOptions& options) {
   const int n = problem.size();
   if (n > largest_spectrum)
     throw std::invalid_argument("Hopf monitors support at most " + std::to_string(largest_spectrum) +
@@ -137,13 +154,39 @@ std::vector<Monitor> hopf_monitors(const Problem& problem) {
     monitors[k].value = [=](const Accepted& now) { return eigenvalue(now).real(); };
     monitors[k].is_event = [=](const Accepted& now) { return eigenvalue(now).imag() > 0; };  // once a pair
     monitors[k].refine = [=](const Accepted& now) {
-      return now.scratch.get<Spectrum>().refined(now, k, scales);
+      return now.scratch.get<Spectrum>().refined(now, k, scales, options);
     };
     monitors[k].describe = [=](const Accepted& now) {
-      return now.scratch.get<Spectrum>().hopf(now.at.jacobian(), k, scales);
+      return now.scratch.get<Spectrum>().hopf(now, k, scales, options);
     };
   }
   return monitors;
+}
+
+NearbyCycle cycle_near(const Event& event, double amplitude) {
+  const auto* hopf = std::get_if<Hopf>(&event.data);
+  if (!hopf) throw std::invalid_argument("the event \"" + event.monitor + "\" has no data of a Hopf point");
+  if (!(amplitude > 0 && std::isfinite(amplitude)))
+    throw std::invalid_argument("the amplitude of a cycle is " + std::to_string(amplitude) +
+                                ", must be positive");
+  if (!std::isfinite(hopf->parameter_shift) || hopf->mean.size() == 0)
+    throw std::invalid_argument("the normal form of the Hopf point at " +
+                                std::to_string(event.point.parameter) +
+                                " is not known, and neither are the cycles near it");
+  const double square = amplitude * amplitude, length = std::hypot(hopf->real.norm(), hopf->imaginary.norm());
+  NearbyCycle cycle;
+  cycle.parameter = event.point.parameter + square * hopf->parameter_shift;
+  cycle.frequency = hopf->frequency + square * hopf->frequency_shift;
+  cycle.mean = event.point.u + square * hopf->mean;
+  cycle.harmonics.resize(hopf->real.size(), 4);
+  cycle.harmonics << 2 * amplitude / length * hopf->real, -2 * amplitude / length * hopf->imaginary,
+      square * hopf->second_real, -square * hopf->second_imaginary;
+  return cycle;
+}
+
+Vector NearbyCycle::at(double theta) const {
+  return mean + harmonics * Eigen::Vector4d(std::cos(theta), std::sin(theta), std::cos(2 * theta),
+                                            std::sin(2 * theta));
 }
 
 }  // namespace arcslip::continuation

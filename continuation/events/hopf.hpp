@@ -29,12 +29,35 @@ namespace arcslip::continuation {
 /// The largest n: all eigenvalues are computed at each point by QR of a dense J, about 10 n^3 operations.
 constexpr int largest_spectrum = 500;
 
+struct HopfOptions {
+  /// First Lyapunov coefficient, speed of the pair and first approximation of the cycles at each event, from
+  /// some 300 evaluations along directions, of J if it is exact, else of F. Default: they decide between
+  /// stable and unstable cycles, and cost less than the eigenvalues of a few points.
+  bool normal_form = true;
+};
+
 /// The monitors of s_1 to s_n, each named "hopf", to be used together. Copies may serve several traces at the
 /// same time. The data of an event is Hopf, with omega > 0 and a + ib normalized by |a|^2 + |b|^2 = 1,
 /// a . b = 0, |a| >= |b| in the scales of the problem, and the component of a largest in scales positive.
 /// Throws std::invalid_argument for more than largest_spectrum unknowns. A Jacobian that is an operator, or a
 /// QR that does not converge, ends the branch (StopReason::monitor_failed).
-std::vector<Monitor> hopf_monitors(const Problem& problem);
+std::vector<Monitor> hopf_monitors(const Problem& problem, const HopfOptions& options = {});
+
+/// A cycle near a Hopf point, by its normal form: a periodic solution of u' = F up to terms of the third
+/// power of the amplitude, the start of a computation of cycles.
+struct NearbyCycle {
+  double parameter = 0, frequency = 0;  // p and angular frequency of the cycle
+  Vector mean;                          // n
+  Matrix harmonics;                     // n x 4: of cos theta, sin theta, cos 2 theta, sin 2 theta
+
+  /// u at the phase theta = frequency * time.
+  Vector at(double theta) const;
+};
+
+/// The cycle of amplitude e, z = e exp(i theta) in the normal form (Hopf in problem/branch.hpp): its first
+/// harmonic is 2 e Re(q exp(i theta)), |q| = 1. Throws std::invalid_argument for an event without data of a
+/// Hopf point, one whose normal form is not known, and amplitudes that are not positive.
+NearbyCycle cycle_near(const Event& hopf, double amplitude);
 
 /// J, dense or sparse, as a dense matrix. Throws std::invalid_argument for an operator.
 void to_dense(const Jacobian& J, Matrix& dense);

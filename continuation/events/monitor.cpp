@@ -1,6 +1,8 @@
 #include <arcslip/continuation/events/monitor.hpp>
 
 #include <arcslip/continuation/events/monitor_calls.hpp>
+#include <arcslip/continuation/events/place_of_event.hpp>
+#include <arcslip/continuation/normal_forms/steady_form.hpp>
 #include <arcslip/continuation/problem/difference.hpp>
 #include <arcslip/continuation/problem/text.hpp>
 
@@ -89,26 +91,36 @@ std::optional<Vector> second_along(const Accepted& now, const Vector& v) try {
 
 // With B = [J F_p; r^T], whose tangent at the fold is t = (v, 0): B^T (w, 0) = e_{n+1}, and by
 // differentiating F(u(s), p(s)) = 0 twice, J u'' + F_p p'' = -F_uu v v, so that p'' is the last entry of
-// -B^-1 (F_uu v v, 0), which is -w . F_uu v v.
+// -B^-1 (F_uu v v, 0), which is -w . F_uu v v. With the coefficients of the normal form it is -2 a |v|^2 / b.
+std::optional<double> fold_curvature(const Accepted& now, const Fold& fold, const Vector& left) {
+  Vector du(left.size()), dp(now.p.size());
+  if (left.size() > 0 &&
+      now.at.second_derivative(left, fold.right_null, Vector::Zero(now.p.size()), du, dp) && du.allFinite())
+    return -du.dot(fold.right_null);
+  if (fold.quadratic.known() && fold.unfolding.signed_by_value())
+    return -2 * fold.quadratic.value * fold.right_null.squaredNorm() / fold.unfolding.value;
+  const auto second = second_along(now, fold.right_null);
+  if (!second) return {};
+  Vector x(now.u.size() + 1);
+  x << -*second, 0;
+  now.bordered.solve(x);
+  return x[now.u.size()];
+}
+
 EventData describe_fold(const Accepted& now) {
   const Eigen::Index n = now.u.size();
   Fold fold;
   fold.right_null = now.tangent.head(n);
-  Vector x = Vector::Unit(n + 1, n);
+  Vector x = Vector::Unit(n + 1, n), left;
   if (now.bordered.solve_transposed(x)) {
-    fold.left_null = x.head(n).normalized();
-    Vector du(n), dp(now.p.size());
-    if (now.at.second_derivative(x.head(n), fold.right_null, Vector::Zero(now.p.size()), du, dp) &&
-        du.allFinite()) {
-      fold.curvature = -du.dot(fold.right_null);
-      return fold;
-    }
+    left = x.head(n);
+    fold.left_null = left.normalized();
+    add_normal_form(now.at, place_of_event(now), fold);
+    now.at.move_to(now.u, now.p, Needs::jacobian);
   }
-  const auto second = second_along(now, fold.right_null);
-  if (!second) return {};
-  x << -*second, 0;
-  now.bordered.solve(x);
-  fold.curvature = x[n];
+  const auto curvature = fold_curvature(now, fold, left);
+  if (!curvature) return {};
+  fold.curvature = *curvature;
   return fold;
 }
 

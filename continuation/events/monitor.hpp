@@ -24,9 +24,10 @@ struct Accepted {
   double arclength;
   Evaluator& at;
   const LinearSolver& bordered;
-  double parameter;  // value of the free one
-  Scratch& scratch;  // of this trace: data that monitors keep between calls
-  int free = 0;      // index of the free parameter
+  double parameter;                  // value of the free one
+  Scratch& scratch;                  // of this trace: data that monitors keep between calls
+  int free = 0;                      // index of the free parameter
+  const Problem* problem = nullptr;  // of this trace
 };
 
 /// An event by equations of its own, more accurate than as a zero along the branch.

@@ -5,6 +5,18 @@
 
 namespace arcslip::continuation {
 
+const char* name(Criticality criticality) {
+  switch (criticality) {
+    case Criticality::supercritical:
+      return "supercritical";
+    case Criticality::subcritical:
+      return "subcritical";
+    case Criticality::unknown:
+      break;
+  }
+  return "unknown";
+}
+
 const char* name(StopReason reason) {
   switch (reason) {
     case StopReason::boundary:

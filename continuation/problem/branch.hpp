@@ -3,6 +3,8 @@
 
 #include <arcslip/continuation/problem/problem.hpp>
 
+#include <cmath>
+#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -19,26 +21,80 @@ struct Point {
   double correction = 0;  // relative size of the last correction
 };
 
-/// A smooth fold in the free parameter.
+/// A coefficient of a normal form with an estimate of its error. Not a number: not known, as where F has no
+/// derivatives, or the linear solver no transposed solves.
+struct Coefficient {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double error = std::numeric_limits<double>::quiet_NaN();
+
+  bool known() const { return std::isfinite(value) && std::isfinite(error); }
+  /// Whether the sign is certain: the value is larger than its error.
+  bool signed_by_value() const { return known() && std::abs(value) > error; }
+};
+
+/// Whether what emerges at a special point is stable where all other eigenvalues are: `supercritical`, or
+/// unstable: `subcritical`. Unknown where the coefficient that decides it is zero within its error.
+enum class Criticality { unknown, supercritical, subcritical };
+
+const char* name(Criticality criticality);
+
+// Conventions of the coefficients, of u' = F(u, p) with p its free parameter, p_0 its value at the point:
+// J q = 0 and J^T w = 0 (at a Hopf point J q = i omega q, J^T w = -i omega w) with <q, q> = <w, q> = 1 and
+// <a, b> = sum conj(a_i) b_i, in the units of the unknowns, without scales; B and C are the second and third
+// derivatives of F in u (Kuznetsov, Elements of Applied Bifurcation Theory, 2004, chapters 3, 5 and 8). The
+// unit of time is that of u' = F.
+
+/// A smooth fold in the free parameter. u' = F is z' = b (p - p_0) + a z^2 there, with q in the direction of
+/// right_null. Not known where the eigenvalue 0 is double.
 struct Fold {
-  Vector right_null;     // J v = 0, n, |v| = 1 in scales
-  Vector left_null;      // w J = 0, n, |w| = 1; empty if the linear solver has no transposed solves
-  double curvature = 0;  // d2p/ds2: > 0 if the branch lies at larger parameters than the fold
+  Vector right_null;        // J v = 0, n, |v| = 1 in scales
+  Vector left_null;         // w J = 0, n, |w| = 1; empty if the linear solver has no transposed solves
+  double curvature = 0;     // d2p/ds2: > 0 if the branch lies at larger parameters than the fold
+  Coefficient quadratic{};  // a = <w, B(q, q)> / 2
+  Coefficient unfolding{};  // b = <w, F_p>
 };
 
 /// A branch point. Simple: J has rank n - 1 and F_p lies in its range, so that two smooth branches cross.
 /// `multiple`: [J F_p] has rank n - 2 or less, and any number of branches may cross.
+///
+/// Along a branch through the point with dp/ds != 0, the first one of `tangents` that has it, u' = F is
+///
+///   z' = d (p - p_0) z + a z^2           transcritical
+///   z' = d (p - p_0) z + c z^3           pitchfork, of a symmetric F: a = 0
+///
+/// so that a pitchfork with c < 0 is supercritical. Not known if multiple.
 struct BranchPoint {
   enum class Type { transcritical, pitchfork, multiple };  // pitchfork: dp/ds = 0 on one of the branches
   Type type = Type::transcritical;
   std::vector<Vector> tangents;  // of the branches, n + 1; first that of the branch traced
   Vector left_null;              // w J = 0, w . F_p = 0, n, |w| = 1; empty if multiple
+  Coefficient crossing{};   // d = <w, d(J q)/dp along the branch>: the rate of the eigenvalue that crosses
+  Coefficient quadratic{};  // a = <w, B(q, q)> / 2
+  Coefficient cubic{};      // c = <w, C(q, q, q) + 3 B(q, h)> / 6, J h = -B(q, q) + 2 a q
+  Criticality criticality = Criticality::unknown;  // of a pitchfork
 };
 
-/// A Hopf point of u' = F(u, p): J (a + ib) = i omega (a + ib).
+/// A Hopf point of u' = F(u, p): J (a + ib) = i omega (a + ib). Cycles emerge, u' = F is
+///
+///   z' = (i omega + mu_p (p - p_0)) z + c z |z|^2,   u = u_0 + 2 Re(z q) + ...
+///
+/// with q along a + ib. They are stable, if all other eigenvalues are, where l1 < 0.
 struct Hopf {
   double frequency = 0;  // omega > 0
   Vector real, imaginary;
+
+  Coefficient lyapunov{};  // l1 = Re c / omega, c = <w, C(q,q,q*) + 2 B(q,h11) + B(q*,h20)> / 2
+  Coefficient detuning{};  // Im c
+  Coefficient growth{};    // Re mu_p: d Re mu / dp along the branch
+  Coefficient drift{};     // Im mu_p
+  Criticality criticality = Criticality::unknown;
+
+  // The cycles of a small amplitude e, to terms of order e^3 (cycle_near() in events/hopf.hpp):
+  //   u = u_0 + 2 e Re(q exp(i theta)) + e^2 (mean + Re((second_real + i second_imaginary) exp(2 i theta)))
+  //   p = p_0 + e^2 parameter_shift,   frequency = omega + e^2 frequency_shift
+  Vector mean, second_real, second_imaginary;                         // empty: not known
+  double parameter_shift = std::numeric_limits<double>::quiet_NaN();  // -Re c / growth
+  double frequency_shift = std::numeric_limits<double>::quiet_NaN();  // Im c + drift parameter_shift
 };
 
 /// A kink: the branch is continuous, its tangent is not.

@@ -93,6 +93,17 @@ class Evaluator {
     return false;
   }
 
+  /// The derivative of F of this order, 2 or 3, along a line through the last point,
+  ///
+  ///   d = d^order / ds^order F(u + s v, p + s q) at s = 0,
+  ///
+  /// as of a Taylor series of F, for the coefficients of normal forms. v: n, q: as many as parameters().
+  /// False: not provided; differences of J, or of F, within one smooth piece are used instead.
+  virtual bool directional_derivative(int order, In v, In q, Out d) const {
+    static_cast<void>(order), static_cast<void>(v), static_cast<void>(q), static_cast<void>(d);
+    return false;
+  }
+
   virtual ByDifferences by_differences() const { return {}; }
 
   /// The smooth piece of a piecewise smooth F at the last point; equal numbers mean the same piece.

@@ -87,6 +87,11 @@ class FunctionEvaluator final : public Evaluator, private Operator {
     return static_cast<bool>(f_->second);
   }
 
+  bool directional_derivative(int order, In v, In q, Out d) const override {
+    if (f_->directional) f_->directional(order, u_, p_, v, q, d);
+    return static_cast<bool>(f_->directional);
+  }
+
   ByDifferences by_differences() const override {
     const bool given = f_->jacobian || f_->sparse_jacobian || f_->apply_jacobian || f_->choosing.jacobian ||
                        f_->choosing.sparse_jacobian;

@@ -38,6 +38,8 @@ using ApplyFunction = std::function<void(In u, In p, In x, Out y)>;
 using ParameterFunction = std::function<void(In u, In p, int k, Out dF)>;
 /// Second derivatives, as Evaluator::second_derivative.
 using SecondFunction = std::function<void(In u, In p, In w, In v, In q, Out du, Out dp)>;
+/// d^order / ds^order F(u + s v, p + s q) at s = 0, order 2 or 3, as Evaluator::directional_derivative.
+using DirectionalFunction = std::function<void(int order, In u, In p, In v, In q, Out d)>;
 /// The index of the smooth piece of F at (u, p), for a piecewise smooth F.
 using PieceFunction = std::function<std::uint64_t(In u, In p)>;
 
@@ -63,6 +65,7 @@ struct Functions {
   ApplyFunction apply_transposed_jacobian{};  // optional, with apply_jacobian
   ParameterFunction derivative{};
   SecondFunction second{};
+  DirectionalFunction directional{};
   PieceFunction piece{};
   Vector scales{};  // n, or none: all 1
   MakeLinearSolver linear_solver{};

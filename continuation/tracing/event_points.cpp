@@ -2,6 +2,8 @@
 
 #include <arcslip/continuation/correction/kink_location.hpp>
 #include <arcslip/continuation/events/monitor_calls.hpp>
+#include <arcslip/continuation/events/place_of_event.hpp>
+#include <arcslip/continuation/normal_forms/steady_form.hpp>
 #include <arcslip/continuation/special_points/branch_point.hpp>
 #include <arcslip/continuation/special_points/multiple_point.hpp>
 #include <arcslip/continuation/tracing/event_locator.hpp>
@@ -62,7 +64,11 @@ std::optional<LocatedEvent> EventLocator::branch_point(const CurvePoint& from, c
     if (!crossing) continue;
     auto branches = describe_branch_point(*problem_, free_, *crossing, to.v - from.v);
     if (!branches) continue;
-    if (auto found = crossing_event(from, to, crossing->x, std::move(*branches))) return found;
+    auto found = crossing_event(from, to, crossing->x, std::move(*branches));
+    if (!found) continue;
+    add_normal_form(probe().evaluator(), place_of_event(accepted(probe(), found->place)),
+                    std::get<BranchPoint>(found->event.data));
+    return found;
   }
   return std::nullopt;
 }

@@ -123,6 +123,28 @@ class Reader {
 template <class T, class U>
 constexpr bool is = std::is_same_v<std::remove_const_t<T>, U>;
 
+// Coefficients of normal forms are absent in states of earlier versions.
+void fields_of_fold(auto& visit, auto& x) {
+  visit("right_null", x.right_null), visit("left_null", x.left_null), visit("curvature", x.curvature);
+  if (visit.holds("quadratic")) visit("quadratic", x.quadratic), visit("unfolding", x.unfolding);
+}
+
+void fields_of_branch_point(auto& visit, auto& x) {
+  visit("type", x.type), visit("tangents", x.tangents), visit("left_null", x.left_null);
+  if (!visit.holds("crossing")) return;
+  visit("crossing", x.crossing), visit("quadratic", x.quadratic), visit("cubic", x.cubic);
+  visit("criticality", x.criticality);
+}
+
+void fields_of_hopf(auto& visit, auto& x) {
+  visit("frequency", x.frequency), visit("real", x.real), visit("imaginary", x.imaginary);
+  if (!visit.holds("lyapunov")) return;
+  visit("lyapunov", x.lyapunov), visit("detuning", x.detuning), visit("growth", x.growth);
+  visit("drift", x.drift), visit("criticality", x.criticality), visit("mean", x.mean);
+  visit("second_real", x.second_real), visit("second_imaginary", x.second_imaginary);
+  visit("parameter_shift", x.parameter_shift), visit("frequency_shift", x.frequency_shift);
+}
+
 void fields_of_state(auto& visit, auto& x) {
   visit("branch", x.branch), visit("free", x.free), visit("direction", x.direction), visit("p", x.p);
   visit("start", x.start), visit("here", x.here), visit("before", x.before);
@@ -146,11 +168,13 @@ void fields(Visit&& visit, auto& x) {
     visit("u", x.u), visit("parameter", x.parameter), visit("tangent", x.tangent);
     visit("arclength", x.arclength), visit("iterations", x.iterations), visit("correction", x.correction);
   } else if constexpr (is<T, Fold>) {
-    visit("right_null", x.right_null), visit("left_null", x.left_null), visit("curvature", x.curvature);
+    fields_of_fold(visit, x);
   } else if constexpr (is<T, BranchPoint>) {
-    visit("type", x.type), visit("tangents", x.tangents), visit("left_null", x.left_null);
+    fields_of_branch_point(visit, x);
+  } else if constexpr (is<T, Coefficient>) {
+    visit("value", x.value), visit("error", x.error);
   } else if constexpr (is<T, Hopf>) {
-    visit("frequency", x.frequency), visit("real", x.real), visit("imaginary", x.imaginary);
+    fields_of_hopf(visit, x);
   } else if constexpr (is<T, Kink>) {
     visit("before", x.before), visit("after", x.after);
   } else if constexpr (is<T, Event>) {

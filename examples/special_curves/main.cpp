@@ -42,6 +42,11 @@ int hopf_curve() {
   const Event& onset = branch.events.front();
   const double frequency = std::get<Hopf>(onset.data).frequency;
   std::printf("hopf at B = %.12f, frequency = %.12f\n", onset.point.parameter, frequency);
+  const Hopf& hopf = std::get<Hopf>(onset.data);
+  std::printf("%s: l1 = %.12f, error %.0e\n", name(hopf.criticality), hopf.lyapunov.value,
+              hopf.lyapunov.error);
+  const NearbyCycle cycle = cycle_near(onset, 0.1);  // amplitude; the cycles lie at larger B
+  std::printf("cycle at B = %.6f, frequency = %.6f\n", cycle.parameter, cycle.frequency);
 
   // The unknowns are now (x, y, B, frequency^2), and A is free.
   const Start oscillation{.u = with_frequency(onset), .p = p, .free = A};
