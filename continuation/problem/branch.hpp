@@ -102,7 +102,51 @@ struct Kink {
   Vector before, after;  // tangents, n + 1
 };
 
-using EventData = std::variant<std::monostate, Fold, BranchPoint, Hopf, Kink>;
+// Points of curves of folds and of Hopf points, with the coefficients of Kuznetsov, SIAM J. Numer. Anal. 36,
+// 1999, where all critical eigenvalues are named; w_0, w_1 are critical unknowns.
+
+/// A cusp of a curve of folds: w' = c w^3 at a = 0.
+struct Cusp {
+  Coefficient cubic{};  // c = <w, C(q, q, q) + 3 B(q, h)> / 6
+};
+
+/// A Bogdanov-Takens point, a double eigenvalue zero with J q_0 = 0, J q_1 = q_0, J^T w_1 = 0, J^T w_0 = w_1,
+/// <q_0, q_0> = <w_0, q_0> = <w_1, q_1> = 1, <q_0, q_1> = <w_0, q_1> = 0:
+///   w_0' = w_1,   w_1' = beta_1 + beta_2 w_0 + a w_0^2 + b w_0 w_1.
+/// Where a b < 0 the Hopf points that leave it are supercritical.
+struct BogdanovTakens {
+  Coefficient a{}, b{};  // a = <w_1, B(q_0, q_0)> / 2, b = <w_0, B(q_0, q_0)> + <w_1, B(q_0, q_1)>
+  Criticality criticality = Criticality::unknown;
+};
+
+/// A generalized Hopf (Bautin) point: l1 = 0. Cycles that meet there have a fold.
+struct GeneralizedHopf {
+  double frequency = 0;
+  Coefficient lyapunov{};  // l1, zero within its error
+  Coefficient detuning{};  // Im c of the normal form of Hopf
+};
+
+/// A zero-Hopf point: eigenvalues 0 and +- i frequency,
+///   w_0' = g200 w_0^2 / 2 + g011 |w_1|^2 + g300 w_0^3 / 6 + g111 w_0 |w_1|^2
+///   w_1' = i omega w_1 + g110 w_0 w_1 + g210 w_0^2 w_1 / 2 + g021 w_1 |w_1|^2 / 2.
+struct ZeroHopf {
+  double frequency = 0;
+  Coefficient g200{}, g011{}, g300{}, g111{};
+  Coefficient g110_real{}, g110_imaginary{}, g210_real{}, g210_imaginary{}, g021_real{}, g021_imaginary{};
+};
+
+/// A double Hopf point: two pairs, the first one that of the curve,
+///   w_1' = i omega_1 w_1 + g2100 w_1 |w_1|^2 / 2 + g1011 w_1 |w_2|^2
+///   w_2' = i omega_2 w_2 + g1110 w_2 |w_1|^2 + g0021 w_2 |w_2|^2 / 2,
+/// with the real parts of the coefficients, that do not belong to a resonance k omega_1 = l omega_2, k + l
+/// <= 4.
+struct DoubleHopf {
+  double frequency = 0, other_frequency = 0;
+  Coefficient g2100{}, g1011{}, g1110{}, g0021{};
+};
+
+using EventData = std::variant<std::monostate, Fold, BranchPoint, Hopf, Kink, Cusp, BogdanovTakens,
+                               GeneralizedHopf, ZeroHopf, DoubleHopf>;
 
 /// A zero of a monitor.
 struct Event {

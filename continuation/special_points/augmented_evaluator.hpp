@@ -29,6 +29,10 @@ class AugmentedEvaluator : public Evaluator {
   }
   std::uint64_t piece() const final { return here_.at().piece(); }
 
+  /// The inner problem, and its evaluator at the last point.
+  const InnerProblem& inner() const { return *inner_; }
+  const Site& here() const { return here_; }
+
  protected:
   AugmentedEvaluator(std::shared_ptr<const InnerProblem> inner, Eigen::Index further)
       : inner_(std::move(inner)), n_(inner_->size()), here_(*inner_), nearby_(*inner_), R_(n_ + further) {}

@@ -98,6 +98,12 @@ class FoldEvaluator final : public AugmentedEvaluator, public Operator, public O
   }
   bool is_cusp(In tangent) const override { return std::abs(share_of_v(tangent)) > share_of_v_at_cusp; }
 
+  bool null_vectors(Vector& right, Vector& left) const override {
+    right = v_.head(n_);
+    left = z_.head(n_);
+    return transposed_;
+  }
+
   double left_times_right() const override {
     if (!transposed_) return 1;
     if (!sign_known_) return std::nan("");

@@ -2,7 +2,9 @@
 
 #include <arcslip/continuation/events/hopf.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/continuation/normal_forms/codimension_two.hpp>
 #include <arcslip/continuation/special_points/augmented_evaluator.hpp>
+#include <arcslip/continuation/special_points/curve_place.hpp>
 
 #include <Eigen/LU>
 
@@ -167,7 +169,14 @@ Vector with_frequency(const Event& event) {
 }
 
 Monitor zero_frequency_monitor() {
-  return {"bogdanov_takens", [](const Accepted& now) { return now.u[now.u.size() - 1]; }};
+  Monitor monitor;
+  monitor.name = "bogdanov_takens";
+  monitor.value = [](const Accepted& now) { return now.u[now.u.size() - 1]; };
+  monitor.describe = [](const Accepted& now) -> EventData {
+    const PlaceOnCurve place(now);
+    return bogdanov_takens_form(place.at(), place.place());
+  };
+  return monitor;
 }
 
 }  // namespace arcslip::continuation

@@ -16,6 +16,11 @@ class OnCurveOfStationaryPoints {
     static_cast<void>(tangent);
     return true;
   }
+  /// The null vectors of J at a point of a curve of folds. False: not known, or another curve.
+  virtual bool null_vectors(Vector& right, Vector& left) const {
+    static_cast<void>(right), static_cast<void>(left);
+    return false;
+  }
   /// w . v of the null vectors: zero at Bogdanov-Takens points.
   virtual double left_times_right() const = 0;
 };

@@ -1,6 +1,8 @@
 #include <arcslip/continuation/special_points/stationary.hpp>
 
+#include <arcslip/continuation/normal_forms/codimension_two.hpp>
 #include <arcslip/continuation/special_points/augmented_evaluator.hpp>
+#include <arcslip/continuation/special_points/curve_place.hpp>
 #include <arcslip/continuation/special_points/on_curve.hpp>
 
 #include <cmath>
@@ -238,11 +240,24 @@ Monitor cusp_monitor() {
   monitor.name = cusp_event;
   monitor.value = [](const Accepted& now) { return on_curve(now).cusp_function(now.tangent); };
   monitor.is_event = [](const Accepted& now) { return on_curve(now).is_cusp(now.tangent); };
+  monitor.describe = [](const Accepted& now) -> EventData {
+    Vector right, left;
+    if (!on_curve(now).null_vectors(right, left)) return {};
+    const PlaceOnCurve place(now);
+    return cusp_form(place.at(), place.place(), right, left);
+  };
   return monitor;
 }
 
 Monitor bogdanov_takens_monitor() {
-  return {"bogdanov_takens", [](const Accepted& now) { return on_curve(now).left_times_right(); }};
+  Monitor monitor;
+  monitor.name = "bogdanov_takens";
+  monitor.value = [](const Accepted& now) { return on_curve(now).left_times_right(); };
+  monitor.describe = [](const Accepted& now) -> EventData {
+    const PlaceOnCurve place(now);
+    return bogdanov_takens_form(place.at(), place.place());
+  };
+  return monitor;
 }
 
 Vector with_parameter(const Point& point) {

@@ -145,6 +145,46 @@ void fields_of_hopf(auto& visit, auto& x) {
   visit("parameter_shift", x.parameter_shift), visit("frequency_shift", x.frequency_shift);
 }
 
+template <class T, class... All>
+constexpr bool is_one_of(const std::variant<All...>*) {
+  return (is<T, All> || ...);
+}
+template <class T>
+constexpr bool is_event_data = is_one_of<T>(static_cast<const EventData*>(nullptr));
+
+void fields_of_point_of_curve(auto& visit, auto& x) {
+  using T = std::remove_reference_t<decltype(x)>;
+  if constexpr (is<T, Cusp>) {
+    visit("cubic", x.cubic);
+  } else if constexpr (is<T, BogdanovTakens>) {
+    visit("a", x.a), visit("b", x.b), visit("criticality", x.criticality);
+  } else if constexpr (is<T, GeneralizedHopf>) {
+    visit("frequency", x.frequency), visit("lyapunov", x.lyapunov), visit("detuning", x.detuning);
+  } else if constexpr (is<T, ZeroHopf>) {
+    visit("frequency", x.frequency), visit("g200", x.g200), visit("g011", x.g011), visit("g300", x.g300);
+    visit("g111", x.g111), visit("g110_real", x.g110_real), visit("g110_imaginary", x.g110_imaginary);
+    visit("g210_real", x.g210_real), visit("g210_imaginary", x.g210_imaginary);
+    visit("g021_real", x.g021_real), visit("g021_imaginary", x.g021_imaginary);
+  } else {
+    visit("frequency", x.frequency), visit("other_frequency", x.other_frequency);
+    visit("g2100", x.g2100), visit("g1011", x.g1011), visit("g1110", x.g1110), visit("g0021", x.g0021);
+  }
+}
+
+void fields_of_event_data(auto& visit, auto& x) {
+  using T = std::remove_reference_t<decltype(x)>;
+  if constexpr (is<T, Fold>)
+    fields_of_fold(visit, x);
+  else if constexpr (is<T, BranchPoint>)
+    fields_of_branch_point(visit, x);
+  else if constexpr (is<T, Hopf>)
+    fields_of_hopf(visit, x);
+  else if constexpr (is<T, Kink>)
+    visit("before", x.before), visit("after", x.after);
+  else
+    fields_of_point_of_curve(visit, x);
+}
+
 void fields_of_state(auto& visit, auto& x) {
   visit("branch", x.branch), visit("free", x.free), visit("direction", x.direction), visit("p", x.p);
   visit("start", x.start), visit("here", x.here), visit("before", x.before);
@@ -167,16 +207,8 @@ void fields(Visit&& visit, auto& x) {
   if constexpr (is<T, Point>) {
     visit("u", x.u), visit("parameter", x.parameter), visit("tangent", x.tangent);
     visit("arclength", x.arclength), visit("iterations", x.iterations), visit("correction", x.correction);
-  } else if constexpr (is<T, Fold>) {
-    fields_of_fold(visit, x);
-  } else if constexpr (is<T, BranchPoint>) {
-    fields_of_branch_point(visit, x);
   } else if constexpr (is<T, Coefficient>) {
     visit("value", x.value), visit("error", x.error);
-  } else if constexpr (is<T, Hopf>) {
-    fields_of_hopf(visit, x);
-  } else if constexpr (is<T, Kink>) {
-    visit("before", x.before), visit("after", x.after);
   } else if constexpr (is<T, Event>) {
     visit("monitor", x.monitor), visit("point", x.point), visit("value", x.value);
     visit("nonsmooth", x.nonsmooth), visit("located", x.located), visit("after", x.after);
@@ -206,6 +238,8 @@ void fields(Visit&& visit, auto& x) {
   } else if constexpr (is<T, FactorMemory>) {
     visit("factors", x.factors), visit("pivots", x.pivots), visit("pivots_kept", x.pivots_kept);
     visit("contraction", x.contraction);
+  } else if constexpr (is_event_data<T>) {
+    fields_of_event_data(visit, x);
   } else if constexpr (is<T, State::Turn>) {
     visit("angle", x.angle), visit("step", x.step), visit("end", x.end);
   } else if constexpr (is<T, State::Transverse>) {

@@ -56,4 +56,22 @@ int main() {
     off = std::max(off, std::abs(point.parameter - (14 * point.u[0] * (1 - point.u[0]) - 1)));
   std::printf("curve of %zu points, |p3 - 14 x (1 - x) + 1| <= off = %.1e; %s\n", curve.points.size(), off,
               curve.stop.message.c_str());
+
+  const auto at = std::find_if(curve.events.begin(), curve.events.end(),
+                               [](const Event& each) { return each.monitor == "bogdanov_takens"; });
+  if (at == curve.events.end()) return 1;
+  const Event& double_zero = *at;
+  const HopfCurveOrigin origin = hopf_curve_at(problem, p1, double_zero, p, p3);
+  const Branch oscillations =
+      trace(origin.curve, {.u = origin.u, .p = origin.p, .free = origin.free, .tangent = origin.tangent},
+            {.lower = 1, .upper = 3}, hopf_curve_monitors(*origin.curve));
+  // J has the trace 0 there: p3 = 14 x - 2 - x / (1 - x).
+  off = 0;
+  for (const Point& point : oscillations.points) {
+    const double x = point.u[0];
+    off = std::max(off, std::abs(point.parameter - (14 * x - 2 - x / (1 - x))));
+  }
+  std::printf("hopf_points: %zu, |p3 - 14 x + 2 + x / (1 - x)| <= off = %.1e, to p3 = %.3f; %s\n",
+              oscillations.points.size(), off, oscillations.points.back().parameter,
+              oscillations.stop.message.c_str());
 }
