@@ -21,12 +21,14 @@
 
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
+#include <arcslip/continuation/problem/stability.hpp>
 
 #include <vector>
 
 namespace arcslip::continuation {
 
-/// The largest n: all eigenvalues are computed at each point by QR of a dense J, about 10 n^3 operations.
+/// The largest n of which all eigenvalues are computed at each point, by QR of a dense J, about 10 n^3
+/// operations.
 constexpr int largest_spectrum = 500;
 
 struct HopfOptions {
@@ -34,13 +36,21 @@ struct HopfOptions {
   /// some 300 evaluations along directions, of J if it is exact, else of F. Default: they decide between
   /// stable and unstable cycles, and cost less than the eigenvalues of a few points.
   bool normal_form = true;
+
+  /// Beyond largest_spectrum unknowns, of a sparse J: how eigenvalues next to the imaginary axis are found,
+  /// with shifts along it (problem/stability.hpp), and how many pairs are watched, those of the largest real
+  /// parts. What shifts do not reach is not found.
+  StabilityOptions spectrum{};
+  int pairs = 4;
 };
 
 /// The monitors of s_1 to s_n, each named "hopf", to be used together. Copies may serve several traces at the
 /// same time. The data of an event is Hopf, with omega > 0 and a + ib normalized by |a|^2 + |b|^2 = 1,
-/// a . b = 0, |a| >= |b| in the scales of the problem, and the component of a largest in scales positive.
-/// Throws std::invalid_argument for more than largest_spectrum unknowns. A Jacobian that is an operator, or a
-/// QR that does not converge, ends the branch (StopReason::monitor_failed).
+/// a . b = 0, |a| >= |b| in the scales of the problem, and the component of a largest in scales positive. For
+/// more than largest_spectrum unknowns there is a monitor for each of HopfOptions::pairs found next to the
+/// imaginary axis. Throws std::invalid_argument for options that are not valid, and for more than
+/// largest_spectrum unknowns without a sparse Jacobian. A Jacobian that is an operator, or a QR that does not
+/// converge, ends the branch (StopReason::monitor_failed).
 std::vector<Monitor> hopf_monitors(const Problem& problem, const HopfOptions& options = {});
 
 /// A cycle near a Hopf point, by its normal form: a periodic solution of u' = F up to terms of the third

@@ -133,6 +133,9 @@ struct Modes {
 };
 Modes modes(const Matrix& A);
 Eigen::VectorXcd eigenvalues(const Matrix& A);
+/// The finite eigenvalues mu of A v = mu B v, B general and possibly singular, by QZ. Those beyond 1e7 |A| /
+/// |B| count as infinite.
+Eigen::VectorXcd finite_eigenvalues(const Matrix& A, const Matrix& B);
 
 /// Eigenvalues of matrices of one size, balanced; no allocation after the first.
 class Eigenvalues {

@@ -4,13 +4,16 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include <cmath>
 #include <utility>
+#include <vector>
 
 namespace arcslip::continuation {
 namespace {
 
 constexpr double worthwhile = 0.95;  // of the norms of a row and its column, after a scaling
 constexpr int most_sweeps = 50;
+constexpr double smallest_finite = 1e-7;  // of 1 / mu, for matrices of norm 1
 constexpr double farthest_scaling = 0x1p500;
 
 // The power of 2 by which the column divides and the row multiplies, so that both have similar norms.
@@ -84,6 +87,18 @@ Modes modes(const Matrix& A) {
 Eigen::VectorXcd eigenvalues(const Matrix& A) {
   Eigenvalues of;
   return of.compute(A) ? of.values() : Eigen::VectorXcd();
+}
+
+Eigen::VectorXcd finite_eigenvalues(const Matrix& A, const Matrix& B) {
+  const double of_A = A.norm(), of_B = B.norm();
+  if (of_B == 0 || A.rows() == 0) return {};
+  const Eigen::GeneralizedEigenSolver<Matrix> of(A / of_A, B / of_B, false);
+  if (of.info() != Eigen::Success) return {};
+  std::vector<std::complex<double>> finite;
+  for (Eigen::Index i = 0; i < A.rows(); ++i)
+    if (std::abs(of.betas()[i]) > smallest_finite * std::abs(of.alphas()[i]))
+      finite.push_back(of.alphas()[i] / of.betas()[i] * (of_A / of_B));
+  return Eigen::Map<const Eigen::VectorXcd>(finite.data(), static_cast<Eigen::Index>(finite.size()));
 }
 
 struct Eigenvalues::Decomposition {

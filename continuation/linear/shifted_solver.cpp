@@ -11,10 +11,19 @@ namespace {
 constexpr int eigenpair_steps = 3;            // of borders: each squares the error of the vectors
 constexpr double least_eigenoverlap = 1e-10;  // |w^H v|, |v| = |w| = 1
 
+// The row of a border, relative to J: made small, it is no pivot before nothing else is left, as a full row
+// that is one early fills all that follow (klu.cpp). It only changes the length of what a unit right-hand
+// side gives.
+double border_row_size(const SparseMatrix& J, const ComplexVector& c) {
+  const double largest = J.nonZeros() ? J.coeffs().cwiseAbs().maxCoeff() : 1, of_c = c.cwiseAbs().maxCoeff();
+  return of_c > 0 && largest > 0 ? largest / of_c * std::pow(static_cast<double>(J.rows()), -3) : 1;
+}
+
 // J - s with its border.
 ComplexSparseLU::Matrix bordered(const SparseMatrix& J, Complex shift, const ComplexVector* b,
                                  const ComplexVector* c) {
   const Eigen::Index n = J.rows(), all = n + (b ? 1 : 0);
+  const double row_size = c ? border_row_size(J, *c) : 1;
   std::vector<Eigen::Triplet<Complex>> entries;
   entries.reserve(static_cast<std::size_t>(J.nonZeros() + 3 * n));
   for (int j = 0; j < J.outerSize(); ++j)
@@ -24,7 +33,7 @@ ComplexSparseLU::Matrix bordered(const SparseMatrix& J, Complex shift, const Com
     entries.emplace_back(i, i, -shift);
     if (!b) continue;
     entries.emplace_back(i, static_cast<int>(n), (*b)[i]);
-    entries.emplace_back(static_cast<int>(n), i, std::conj((*c)[i]));
+    entries.emplace_back(static_cast<int>(n), i, row_size * std::conj((*c)[i]));
   }
   ComplexSparseLU::Matrix A(all, all);
   A.setFromTriplets(entries.begin(), entries.end());

@@ -4,7 +4,8 @@
 //   [ J - s  b ] (x, g) = (f, h).
 //   [ c^H    0 ]
 //
-// Dense J: balanced, by LU. Sparse J: by KLU. Not installed.
+// Dense J: balanced, by LU. Sparse J: by KLU, with the last row times a factor that keeps it from being a
+// pivot early: h is to be 0, or x matters up to its length only. Not installed.
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/sparse_algebra.hpp>

@@ -17,6 +17,22 @@ const char* name(Criticality criticality) {
   return "unknown";
 }
 
+std::vector<StabilityRange> stability_ranges(const Branch& branch) {
+  std::vector<StabilityRange> ranges;
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    const auto& spectrum = branch.points[i].spectrum;
+    if (!spectrum) {
+      if (!ranges.empty()) ranges.back().last = i;
+    } else if (!ranges.empty() && ranges.back().unstable == spectrum->unstable) {
+      ranges.back().last = i;
+      ranges.back().complete = ranges.back().complete && spectrum->complete;
+    } else {
+      ranges.push_back({i, i, spectrum->unstable, spectrum->complete});
+    }
+  }
+  return ranges;
+}
+
 const char* name(StopReason reason) {
   switch (reason) {
     case StopReason::boundary:

@@ -2,9 +2,11 @@
 // A solution branch of F(u, p) = 0 in one free parameter, and why it ended.
 
 #include <arcslip/continuation/problem/problem.hpp>
+#include <arcslip/continuation/problem/stability.hpp>
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,12 +15,13 @@ namespace arcslip::continuation {
 
 /// A solution point. Arclength and tangent use the problem's scales: |t|^2 = sum (t_i / scale_i)^2 = 1.
 struct Point {
-  Vector u;               // n
-  double parameter = 0;   // value of the free parameter
-  Vector tangent;         // n + 1: du/ds, dp/ds
-  double arclength = 0;   // from the start
-  int iterations = 0;     // of the corrector
-  double correction = 0;  // relative size of the last correction
+  Vector u;                            // n
+  double parameter = 0;                // value of the free parameter
+  Vector tangent;                      // n + 1: du/ds, dp/ds
+  double arclength = 0;                // from the start
+  int iterations = 0;                  // of the corrector
+  double correction = 0;               // relative size of the last correction
+  std::optional<Spectrum> spectrum{};  // with Options::stability
 };
 
 /// A coefficient of a normal form with an estimate of its error. Not a number: not known, as where F has no
@@ -232,6 +235,18 @@ struct Branch {
   /// Jacobian, so that tangents and events may be wrong.
   std::vector<std::string> warnings;
 };
+
+/// Points first to last of a branch, which have the same number of unstable eigenvalues. Points without a
+/// spectrum belong to the range before them.
+struct StabilityRange {
+  std::size_t first = 0, last = 0;
+  int unstable = 0;
+  bool complete = false;  // of all points that have a spectrum: `unstable` is the number. False: found
+};
+
+/// The ranges of stability of a branch; none without Options::stability. They change at the events
+/// between their points, if these are monitored.
+std::vector<StabilityRange> stability_ranges(const Branch& branch);
 
 /// The point at share s, in [0, 1] or beyond, of the cubic through two points with their tangents (Hermite);
 /// length: of the chord.

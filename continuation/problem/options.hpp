@@ -2,10 +2,12 @@
 // Options of a trace. All have defaults; check() validates them.
 
 #include <arcslip/continuation/problem/problem.hpp>
+#include <arcslip/continuation/problem/stability.hpp>
 #include <arcslip/control/run_control.hpp>
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace arcslip::continuation {
@@ -87,6 +89,9 @@ struct Options {
   double largest_state = 1e12;     // |u| in scales
   double event_tolerance = 1e-12;  // of the free parameter at an event, relative
   MakeLinearSolver linear_solver{};  // none: the problem's own, or the default for its Jacobian
+
+  /// The stability of u' = F, or M u' = F: Point::spectrum. None, the default: F is no rate of change.
+  std::optional<StabilityOptions> stability{};
 
   /// Asked before each attempted step, so that a trace can also be stopped while steps are rejected: its end
   /// is that of the trace, with reason `user`. Unlike for an observer, the problem is not evaluated for it.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -30,6 +31,21 @@ void Recorder::keep(const CurvePoint& place, const Correction& correction) {
   if (!options_.keep_points) kept.u = kept.tangent = {};
   s_.branch.points.push_back(std::move(kept));
   ++s_.branch.counts.points;
+}
+
+void Recorder::add_spectrum() {
+  if (!spectra_) return;
+  const StabilityOptions& of = *options_.stability;
+  const bool everywhere = of.at == SpectrumAt::every_point ||
+                          (of.at == SpectrumAt::automatic && s_.here.v.size() - 1 <= of.every_point);
+  const std::size_t events = s_.branch.events.size();
+  if (!everywhere && s_.branch.points.size() > 1 && events == events_before_) return;
+  events_before_ = events;
+  try {
+    s_.branch.points.back().spectrum = spectra_->at(main_.evaluator().jacobian());
+  } catch (const std::exception& fault) {
+    warn_once("no stability at ", text(s_.branch.points.back().parameter) + because(fault.what()));
+  }
 }
 
 void Recorder::warn_once(const std::string& start, const std::string& rest) {

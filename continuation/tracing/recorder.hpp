@@ -4,6 +4,7 @@
 #include <arcslip/continuation/correction/corrector.hpp>
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/options.hpp>
+#include <arcslip/continuation/stability/spectrum_finder.hpp>
 #include <arcslip/continuation/tracing/event_locator.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
@@ -25,10 +26,15 @@ class Recorder {
         observer_(std::move(observer)),
         s_(state),
         main_(corrector),
-        events_(events) {}
+        events_(events) {
+    if (options.stability) spectra_.emplace(*options.stability);
+  }
 
   /// A point of the branch.
   void keep(const CurvePoint& place, const Correction& correction);
+
+  /// The spectrum of the last point, for which the corrector has J, where it is to have one.
+  void add_spectrum();
 
   /// Where a monitor is NaN, its zeros are missed: a warning of the branch, once for each monitor.
   void warn_of_undefined(const CurvePoint& place);
@@ -57,6 +63,8 @@ class Recorder {
   Corrector& main_;
   EventLocator& events_;
   std::optional<CurvePoint> terminal_;
+  std::optional<SpectrumFinder> spectra_;
+  std::size_t events_before_ = 0;  // of the branch, at the last spectrum
 };
 
 }  // namespace arcslip::continuation

@@ -41,6 +41,8 @@ class Writer {
       return Json{{"kind", x.index()}, {"data", std::move(data)}};
     } else if constexpr (std::is_same_v<T, std::monostate>) {
       return Json();
+    } else if constexpr (std::is_same_v<T, std::complex<double>>) {
+      return Json::array({json(x.real()), json(x.imag())});
     } else if constexpr (std::is_enum_v<T>) {
       return static_cast<int>(x);
     } else if constexpr (std::is_same_v<T, double>) {
@@ -86,6 +88,11 @@ class Reader {
     } else if constexpr (std::is_same_v<T, EventData>) {
       read_data<0>(from, x);
     } else if constexpr (std::is_same_v<T, std::monostate>) {
+    } else if constexpr (std::is_same_v<T, std::complex<double>>) {
+      double real = 0, imaginary = 0;
+      read(from.at(0), real);
+      read(from.at(1), imaginary);
+      x = {real, imaginary};
     } else if constexpr (std::is_enum_v<T>) {
       x = static_cast<T>(from.get<int>());
     } else if constexpr (std::is_same_v<T, double>) {
@@ -207,6 +214,12 @@ void fields(Visit&& visit, auto& x) {
   if constexpr (is<T, Point>) {
     visit("u", x.u), visit("parameter", x.parameter), visit("tangent", x.tangent);
     visit("arclength", x.arclength), visit("iterations", x.iterations), visit("correction", x.correction);
+    if (visit.holds("spectrum")) visit("spectrum", x.spectrum);  // absent in states of earlier versions
+  } else if constexpr (is<T, Spectrum>) {
+    visit("leading", x.leading), visit("unstable", x.unstable), visit("complete", x.complete);
+    visit("found_near", x.found_near);
+  } else if constexpr (is<T, AxisRange>) {
+    visit("lower", x.lower), visit("upper", x.upper);
   } else if constexpr (is<T, Coefficient>) {
     visit("value", x.value), visit("error", x.error);
   } else if constexpr (is<T, Event>) {

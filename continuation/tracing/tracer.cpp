@@ -323,6 +323,7 @@ bool Tracer::Impl::accept() {
   CurvePoint& place = trial_.end;
   record_.warn_of_undefined(place);
   record_.keep(place, trial_.correction);
+  record_.add_spectrum();
   transverse_.keep(trial_, place);
   s_.last_step = place.arclength - trial_.last_section(s_.here).arclength;
   s_.curve_error = trial_.curve_error;

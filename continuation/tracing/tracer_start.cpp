@@ -48,6 +48,7 @@ Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const
                std::vector<Monitor> monitors, Observer observer) {
   problem = scaled_to_window(given(std::move(problem)), start.free, options.lower, options.upper);
   check(options);
+  if (options.stability) check(*options.stability, problem->size());
   check_start(*problem, start, options);
   check_monitors(monitors);
   impl_ = std::make_unique<Impl>(std::move(problem), before_the_start(start), options, std::move(monitors),
@@ -58,6 +59,7 @@ Tracer::Tracer(std::shared_ptr<const Problem> problem, State state, const Option
                std::vector<Monitor> monitors, Observer observer) {
   problem = scaled_to_window(given(std::move(problem)), state.free, options.lower, options.upper);
   check(options);
+  if (options.stability) check(*options.stability, problem->size());
   check_state(*problem, state, monitors.size());
   check_monitors(monitors);
   impl_ = std::make_unique<Impl>(std::move(problem), std::move(state), options, std::move(monitors),
@@ -180,6 +182,7 @@ bool Tracer::Impl::begin() {
                 : 0.1 * to_scale * options_.step.largest_parameter / std::max(along, 1e-3);
   s_.step = control_.limited(s_.step);
   record_.keep(s_.here, correction);
+  record_.add_spectrum();
   transverse_.keep(trial_, s_.here);
   evaluate(monitors_, main_, s_.here);
   record_.warn_of_undefined(s_.here);

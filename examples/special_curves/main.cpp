@@ -48,6 +48,13 @@ int hopf_curve() {
   const NearbyCycle cycle = cycle_near(onset, 0.1);  // amplitude; the cycles lie at larger B
   std::printf("cycle at B = %.6f, frequency = %.6f\n", cycle.parameter, cycle.frequency);
 
+  Options options{.lower = 1, .upper = 3};
+  options.stability.emplace();  // of u' = F
+  const Branch stable = trace(problem, rest, options, hopf_monitors(*problem));
+  for (const StabilityRange& range : stability_ranges(stable))
+    std::printf("stability: B = %.4f to %.4f, unstable = %d\n", stable.points[range.first].parameter,
+                stable.points[range.last].parameter, range.unstable);
+
   // The unknowns are now (x, y, B, frequency^2), and A is free.
   const Start oscillation{.u = with_frequency(onset), .p = p, .free = A};
   const Branch curve = trace(hopf_points(problem, B, frequency), oscillation, {.lower = 0.5, .upper = 2},

@@ -1,0 +1,148 @@
+#include <arcslip/continuation/stability/spectrum_finder.hpp>
+
+#include <arcslip/continuation/linear/dense_algebra.hpp>
+#include <arcslip/continuation/linear/eigenvalues_near.hpp>
+
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr double same_eigenvalue = 1e-6;       // relative: found by two shifts
+constexpr double symmetric_rounding = 1e-14;   // of J - J^T, relative
+constexpr double least_inertia_pivot = 1e-13;  // of the largest entry of D: below, its sign is rounding
+constexpr double next_shift_ratio = 2;                  // the next shift, over the end of the last range
+
+bool is_symmetric(const SparseMatrix& J) {
+  const SparseMatrix difference = J - SparseMatrix(J.transpose());
+  return difference.norm() <= symmetric_rounding * J.norm();
+}
+
+// The ranges in order, those that overlap joined.
+std::vector<AxisRange> joined(std::vector<AxisRange> ranges) {
+  std::sort(ranges.begin(), ranges.end(), [](auto& a, auto& b) { return a.lower < b.lower; });
+  std::vector<AxisRange> all;
+  for (const AxisRange& each : ranges)
+    if (!all.empty() && each.lower <= all.back().upper)
+      all.back().upper = std::max(all.back().upper, each.upper);
+    else
+      all.push_back(each);
+  return all;
+}
+
+}  // namespace
+
+Spectrum SpectrumFinder::at(const Jacobian& J) {
+  Spectrum found;
+  if (options_.solver) {
+    found = options_.solver(J, options_.mass.get(), has_before_ ? &before_ : nullptr);
+  } else if (const auto* dense = std::get_if<Matrix>(&J)) {
+    found = dense->rows() <= options_.dense ? by_all(*dense) : by_shifts(dense->sparseView());
+  } else if (const auto* sparse = std::get_if<SparseMatrix>(&J)) {
+    if (sparse->rows() <= options_.dense) {
+      found = by_all(Matrix(*sparse));
+    } else {
+      auto counted = options_.mass || !is_symmetric(*sparse) ? std::nullopt : by_inertia(*sparse);
+      found = counted ? std::move(*counted) : by_shifts(*sparse);
+    }
+  } else {
+    throw std::invalid_argument(
+        "the Jacobian is an operator: its eigenvalues ask for a solver of your own "
+        "(StabilityOptions::solver)");
+  }
+  before_ = found;
+  has_before_ = true;
+  return found;
+}
+
+// The largest real parts first; of a pair, the positive imaginary part.
+void SpectrumFinder::sort(Spectrum& found) const {
+  std::stable_sort(found.leading.begin(), found.leading.end(), [](const auto& x, const auto& y) {
+    return x.real() != y.real() ? x.real() > y.real() : x.imag() > y.imag();
+  });
+  const auto kept = static_cast<std::size_t>(options_.leading);
+  if (found.leading.size() > kept) found.leading.resize(kept);
+}
+
+Spectrum SpectrumFinder::by_all(const Matrix& J) {
+  const Eigen::VectorXcd values =
+      options_.mass ? finite_eigenvalues(J, Matrix(*options_.mass)) : eigenvalues(J);
+  if (values.size() == 0 && J.rows() > 0 && !options_.mass)
+    throw std::runtime_error("the eigenvalues of the Jacobian could not be computed");
+  Spectrum found;
+  found.complete = true;
+  found.found_near = {{0, unbounded}};
+  found.leading.assign(values.begin(), values.end());
+  found.unstable = static_cast<int>((values.real().array() > 0).count());
+  sort(found);
+  return found;
+}
+
+// J = L D L^T has as many positive eigenvalues as D positive entries (Sylvester). Nothing where a pivot is
+// rounding: J is not permuted for stability.
+std::optional<Spectrum> SpectrumFinder::by_inertia(const SparseMatrix& J) {
+  const Eigen::SimplicialLDLT<SparseMatrix> factors(J);
+  if (factors.info() != Eigen::Success) return {};
+  const Vector D = factors.vectorD();
+  if (!D.allFinite() || D.cwiseAbs().minCoeff() <= least_inertia_pivot * D.cwiseAbs().maxCoeff()) return {};
+  Spectrum found;
+  if (shifts_.empty()) shifts_.push_back({});
+  look_near(J, shifts_.front(), found);
+  found.complete = true;
+  found.found_near = {{0, unbounded}};
+  found.unstable = static_cast<int>((D.array() > 0).count());
+  sort(found);
+  return found;
+}
+
+void SpectrumFinder::look_near(const SparseMatrix& J, Shift& shift, Spectrum& found) {
+  NearEigenvalues near = eigenvalues_near(J, options_.mass.get(), shift.w, options_, shift.start);
+  for (const auto& value : near.values) {
+    const bool known = std::any_of(found.leading.begin(), found.leading.end(), [&](const auto& other) {
+      return std::abs(value - other) <= same_eigenvalue * std::abs(other);
+    });
+    if (!known) found.leading.push_back(value);
+  }
+  if (near.range.upper > near.range.lower) found.found_near.push_back(near.range);
+  shift.start = std::move(near.start);
+}
+
+// In the lowest gap of the axis that is to be covered. Nothing: there is none, or no range to begin with.
+std::optional<double> SpectrumFinder::next_shift(const std::vector<AxisRange>& ranges) const {
+  if (ranges.empty()) return {};
+  if (ranges.front().lower > 0) return ranges.front().lower / 2;
+  const double end = ranges.front().upper, bound = options_.largest_frequency;
+  if (bound > 0 && end >= bound) return {};
+  if (ranges.size() > 1) return (end + ranges[1].lower) / 2;
+  return bound > 0 ? std::min(next_shift_ratio * end, bound) : next_shift_ratio * end;
+}
+
+Spectrum SpectrumFinder::by_shifts(const SparseMatrix& J) {
+  if (shifts_.empty()) {
+    shifts_.push_back({});
+    for (const double w : options_.frequencies) shifts_.push_back({w, {}});
+  }
+  Spectrum found;
+  for (Shift& shift : shifts_) look_near(J, shift, found);
+  found.found_near = joined(std::move(found.found_near));
+  while (shifts_.size() < static_cast<std::size_t>(options_.shifts)) {
+    const auto w = next_shift(found.found_near);
+    if (!w || !std::isfinite(*w)) break;
+    shifts_.push_back({*w, {}});
+    look_near(J, shifts_.back(), found);
+    found.found_near = joined(std::move(found.found_near));
+  }
+  found.unstable = static_cast<int>(std::count_if(found.leading.begin(), found.leading.end(),
+                                                  [](const auto& each) { return each.real() > 0; }));
+  sort(found);
+  return found;
+}
+
+}  // namespace arcslip::continuation
