@@ -1,6 +1,7 @@
 #pragma once
 // Branches of F(u, p) = 0: everything a program needs to trace them.
 
+#include <arcslip/continuation/diagrams/both_directions.hpp>
 #include <arcslip/continuation/diagrams/deflation.hpp>
 #include <arcslip/continuation/diagrams/diagram.hpp>
 #include <arcslip/continuation/events/hopf.hpp>
@@ -16,6 +17,7 @@
 #include <arcslip/continuation/special_points/branch_point.hpp>
 #include <arcslip/continuation/special_points/branch_point_curve.hpp>
 #include <arcslip/continuation/special_points/codimension_two_monitors.hpp>
+#include <arcslip/continuation/special_points/conserved_sums.hpp>
 #include <arcslip/continuation/special_points/hopf_curve.hpp>
 #include <arcslip/continuation/special_points/multiple_point.hpp>
 #include <arcslip/continuation/special_points/stationary.hpp>

@@ -18,6 +18,7 @@ constexpr std::array libraries = {
     Library{"Eigen", ARCSLIP_EIGEN_VERSION, "MPL-2.0"},
     Library{"SuiteSparse (KLU)", ARCSLIP_SUITESPARSE_VERSION, "LGPL-2.1-or-later"},
     Library{"SuiteSparse (CHOLMOD)", ARCSLIP_SUITESPARSE_VERSION, "LGPL-2.1-or-later, GPL-2.0-or-later"},
+    Library{"Spectra", ARCSLIP_SPECTRA_VERSION, "MPL-2.0"},
     Library{"NLopt", ARCSLIP_NLOPT_VERSION, "MIT, LGPL-2.1-or-later"},
     Library{"nlohmann/json", ARCSLIP_JSON_VERSION, "MIT"},
     Library{"Boost", ARCSLIP_BOOST_VERSION, "BSL-1.0"},

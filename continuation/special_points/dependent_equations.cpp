@@ -75,8 +75,19 @@ void to_echelon_form(Matrix& L) {
   }
 }
 
-// "F[0] + 2 F[3]", or nothing if it has too many terms.
-std::string sum_of(const Eigen::Ref<const Vector>& l) {
+std::string names_of_sums(const Matrix& L) {
+  std::string result;
+  for (Eigen::Index k = 0; k < L.rows(); ++k) {
+    const std::string sum = k < most_sums ? words_of_sum(L.row(k).transpose(), "F") : std::string();
+    if (sum.empty()) return {};
+    result += (k == 0 ? "" : k + 1 == L.rows() ? " and " : ", ") + sum + " = 0";
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string words_of_sum(const Eigen::Ref<const Vector>& l, const char* name) {
   const double largest = l.lpNorm<Eigen::Infinity>();
   std::string result;
   Eigen::Index terms = 0;
@@ -86,24 +97,13 @@ std::string sum_of(const Eigen::Ref<const Vector>& l) {
     const double c = std::abs(l[i]), near = std::abs(c - 1) < rounding_of_sums ? 1 : c;
     result += terms == 1 ? (l[i] < 0 ? "-" : "") : (l[i] < 0 ? " - " : " + ");
     if (near != 1) result += text(std::round(near / rounding_of_sums) * rounding_of_sums, " ");
-    result += "F[" + std::to_string(i) + "]";
+    result += name + ("[" + std::to_string(i)) + "]";
   }
   return result;
 }
 
-std::string names_of_sums(const Matrix& L) {
-  std::string result;
-  for (Eigen::Index k = 0; k < L.rows(); ++k) {
-    const std::string sum = k < most_sums ? sum_of(L.row(k).transpose()) : std::string();
-    if (sum.empty()) return {};
-    result += (k == 0 ? "" : k + 1 == L.rows() ? " and " : ", ") + sum + " = 0";
-  }
-  return result;
-}
-
-}  // namespace
-
-std::string doubt_of_dependence(const Problem& problem, const Vector& v, const Vector& p, int along) try {
+std::optional<Matrix> dependent_combinations(const Problem& problem, const Vector& v, const Vector& p,
+                                             int along) {
   const Eigen::Index n = problem.size();
   if (n > most_equations) return {};
   Vector sizes;
@@ -113,9 +113,16 @@ std::string doubt_of_dependence(const Problem& problem, const Vector& v, const V
   if (of.values.size() < n) return {};
   const double rounding = dependence_rounding * std::max(of.values[0], 1.0) * static_cast<double>(n);
   const Eigen::Index k = (of.values.array() <= rounding).count();
-  if (k == 0) return {};
   Matrix L = of.V.rightCols(k).transpose() * sizes.cwiseInverse().asDiagonal();
   to_echelon_form(L);
+  return L;
+}
+
+std::string doubt_of_dependence(const Problem& problem, const Vector& v, const Vector& p, int along) try {
+  const auto found = dependent_combinations(problem, v, p, along);
+  if (!found || found->rows() == 0) return {};
+  const Matrix& L = *found;
+  const Eigen::Index k = L.rows();
   const std::string sums = names_of_sums(L);
   const std::string count = std::to_string(k);
   return "; the solutions here are not isolated: the equations depend on each other, as " +
