@@ -1,7 +1,6 @@
 #pragma once
 // Branches of F(u, p) = 0: everything a program needs to trace them.
 
-#include <arcslip/continuation/diagrams/both_directions.hpp>
 #include <arcslip/continuation/diagrams/deflation.hpp>
 #include <arcslip/continuation/diagrams/diagram.hpp>
 #include <arcslip/continuation/events/hopf.hpp>

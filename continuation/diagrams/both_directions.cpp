@@ -1,6 +1,5 @@
-#include <arcslip/continuation/diagrams/both_directions.hpp>
-
 #include <arcslip/continuation/diagrams/branch_parts.hpp>
+#include <arcslip/continuation/diagrams/diagram.hpp>
 
 #include <utility>
 

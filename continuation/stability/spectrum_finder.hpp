@@ -2,7 +2,7 @@
 // Spectra along one branch (problem/stability.hpp). Not installed.
 //
 // Large J: shifts i w_k cover the imaginary axis from 0 upwards. Each finds what is nearest to it, and with
-// that a range of the axis near which nothing is missing (linear/eigenvalues_near.hpp). The next shift stands
+// that a range of the axis near which nothing is missing. The next shift stands
 // in the middle of the lowest gap between ranges, or at twice the end of the last one: real eigenvalues that
 // crowd at 0 leave a small first range, and ranges grow with the distance from them. Shifts and spaces of one
 // point serve the next.

@@ -2,7 +2,7 @@
 
 #include "continuation/problems.hpp"
 
-#include <arcslip/continuation/diagrams/both_directions.hpp>
+#include <arcslip/continuation/diagrams/diagram.hpp>
 
 using namespace problems;
 
