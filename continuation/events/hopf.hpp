@@ -33,7 +33,7 @@ constexpr int largest_spectrum = 500;
 
 struct HopfOptions {
   /// First Lyapunov coefficient, speed of the pair and first approximation of the cycles at each event, from
-  /// some 300 evaluations along directions, of J if it is exact, else of F. Default: they decide between
+  /// some 160 evaluations of J if it is exact, else 300 of F. Default: they decide between
   /// stable and unstable cycles, and cost less than the eigenvalues of a few points.
   bool normal_form = true;
 

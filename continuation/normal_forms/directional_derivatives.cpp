@@ -145,6 +145,15 @@ RealForm DirectionalDerivatives::third(const Vector& a, const Vector& b, const V
 
 ComplexForm DirectionalDerivatives::second(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   const std::array<Vector, 2> x{a.real(), a.imag()}, y{b.real(), b.imag()};
+  if (b == a || b == a.conjugate()) {  // (x + i y)^2 = x^2 - y^2 + 2 i x y, |x + i y|^2 = x^2 + y^2
+    const RealForm xx = along(2, x[0]), yy = along(2, x[1]);
+    ComplexForm square{(xx.value + yy.value).cast<std::complex<double>>(), xx.error + yy.error};
+    if (b != a) return square;
+    const RealForm xy = second(x[0], x[1]);
+    square.value = (xx.value - yy.value).cast<std::complex<double>>() + 2.0 * powers_of_i[1] * xy.value;
+    square.error += 2 * xy.error;
+    return square;
+  }
   ComplexForm sum{Eigen::VectorXcd::Zero(n_), Vector::Zero(n_)};
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t j = 0; j < 2; ++j) {
@@ -157,6 +166,7 @@ ComplexForm DirectionalDerivatives::second(const Eigen::VectorXcd& a, const Eige
 
 ComplexForm DirectionalDerivatives::third(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b,
                                           const Eigen::VectorXcd& c) {
+  if (b == a && c == a.conjugate()) return cube_of_size(a.real(), a.imag());
   const std::array<Vector, 2> x{a.real(), a.imag()}, y{b.real(), b.imag()}, z{c.real(), c.imag()};
   ComplexForm sum{Eigen::VectorXcd::Zero(n_), Vector::Zero(n_)};
   for (std::size_t i = 0; i < 2; ++i)
@@ -167,6 +177,18 @@ ComplexForm DirectionalDerivatives::third(const Eigen::VectorXcd& a, const Eigen
         sum.error += form.error;
       }
   return sum;
+}
+
+// D^3 a a a* of a = x + i y, a |a|^2 = x^3 + x y^2 + i (x^2 y + y^3), where the sum and the difference of D^3
+// (x + y)^3 and D^3 (x - y)^3 have 6 x y^2 and 6 x^2 y.
+ComplexForm DirectionalDerivatives::cube_of_size(const Vector& x, const Vector& y) {
+  const RealForm X = along(3, x), Y = along(3, y), plus = along(3, x + y), minus = along(3, x - y);
+  const Vector xyy = (plus.value + minus.value - 2 * X.value) / 6,
+               xxy = (plus.value - minus.value - 2 * Y.value) / 6;
+  ComplexForm cube;
+  cube.value = (X.value + xyy).cast<std::complex<double>>() + powers_of_i[1] * (Y.value + xxy);
+  cube.error = X.error + Y.error + plus.error + minus.error;
+  return cube;
 }
 
 RealForm DirectionalDerivatives::parameter_derivative() {

@@ -65,6 +65,7 @@ class DirectionalDerivatives {
   RealForm parameter_derivative();
 
  private:
+  ComplexForm cube_of_size(const Vector& x, const Vector& y);
   double size_of(const Vector& d) const;
   bool given(int order, const Vector& d, RealForm& form);
   bool value_at(double distance, const Vector& d, bool of_jacobian, Vector& g);

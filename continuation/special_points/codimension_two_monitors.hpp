@@ -22,8 +22,8 @@ namespace arcslip::continuation {
 
 /// Monitors of a curve of Hopf points (hopf_points()): "bogdanov_takens", "generalized_hopf", "zero_hopf" and
 /// "double_hopf", with the data of the structs of these names. Zero-Hopf and double Hopf points are reported,
-/// no branch is switched there. l1 is computed at each point, from some 300 evaluations of J or F. Throws
-/// std::invalid_argument, at the first point, on other branches.
+/// no branch is switched there. l1 is computed at each point, from some 160 evaluations of J, or 300 of F.
+/// Throws std::invalid_argument, at the first point, on other branches.
 std::vector<Monitor> hopf_curve_monitors(const Problem& curve);
 
 /// Monitors of a curve of folds (folds()) of up to largest_spectrum unknowns: "cusp", "bogdanov_takens" and
