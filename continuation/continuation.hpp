@@ -15,7 +15,6 @@
 #include <arcslip/continuation/problem/problem_from_functions.hpp>
 #include <arcslip/continuation/special_points/branch_point.hpp>
 #include <arcslip/continuation/special_points/branch_point_curve.hpp>
-#include <arcslip/continuation/special_points/codimension_two_monitors.hpp>
 #include <arcslip/continuation/special_points/conserved_sums.hpp>
 #include <arcslip/continuation/special_points/hopf_curve.hpp>
 #include <arcslip/continuation/special_points/multiple_point.hpp>

@@ -9,7 +9,6 @@
 #include <Eigen/LU>
 
 #include <arcslip/continuation/events/hopf.hpp>
-#include <arcslip/continuation/special_points/codimension_two_monitors.hpp>
 #include <arcslip/continuation/special_points/hopf_curve.hpp>
 #include <arcslip/continuation/special_points/stationary.hpp>
 #include <arcslip/continuation/tracing/state.hpp>

@@ -1,5 +1,3 @@
-#include <arcslip/continuation/special_points/codimension_two_monitors.hpp>
-
 #include <arcslip/continuation/events/hopf.hpp>
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/normal_forms/codimension_two.hpp>
