@@ -19,7 +19,7 @@ LIBRARY = re.compile(r"(?P<name>.+?) (?P<version>[^ ,]+), (?P<licence>.+)")
 
 
 def _of_command() -> dict[str, str]:
-    """Return what the command tells of its build, by the words before the colons, and the libraries."""
+    """Return what the command says of its build, by the words before the colons, and the libraries."""
     found = subprocess.run([PROGRAM, "--version", "--verbose"], capture_output=True, text=True, check=True)
     lines = found.stdout.splitlines()[1:]
     return dict(line.split(": ", 1) for line in lines if ": " in line) | {
@@ -37,13 +37,13 @@ def _pools() -> list[dict[str, Any]] | None:
 
 
 def _config() -> dict[str, Any]:
-    told = _of_command()
-    matches = (LIBRARY.fullmatch(line) for line in told["libraries"].splitlines())
+    build = _of_command()
+    matches = (LIBRARY.fullmatch(line) for line in build["libraries"].splitlines())
     return {
         "version": _core.__version__,
         "python": sys.version.split()[0],
-        "commit": told["commit"],
-        "compiler": told["compiler"],
+        "commit": build["commit"],
+        "compiler": build["compiler"],
         "libraries": [match.groupdict() for match in matches if match],
         "licences": {path.stem: os.fspath(path) for path in sorted(LICENCES.glob("*.txt"))},
         "threads": {"arcslip": available(), "pools": _pools()},
