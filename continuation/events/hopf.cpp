@@ -212,6 +212,11 @@ std::vector<Monitor> hopf_monitors(const Problem& problem, const HopfOptions& op
   const int n = problem.size();
   const Vector scales = problem.scales();
   check(options.spectrum, n);
+  if (options.spectrum.mass)
+    throw std::invalid_argument(
+        "Hopf points are those of u' = F: they are not located with a mass matrix; multiply F by its "
+        "inverse, "
+        "or ask for the spectrum of points (Options::stability)");
   if (n > largest_spectrum) {
     if (!std::holds_alternative<SparseMatrix>(problem.evaluator()->jacobian()))
       throw std::invalid_argument("Hopf points of " + std::to_string(n) + " unknowns, more than " +

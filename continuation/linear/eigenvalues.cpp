@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -90,10 +91,11 @@ Eigen::VectorXcd eigenvalues(const Matrix& A) {
 }
 
 Eigen::VectorXcd finite_eigenvalues(const Matrix& A, const Matrix& B) {
-  const double of_A = A.norm(), of_B = B.norm();
+  const double of_A = A.norm() > 0 ? A.norm() : 1, of_B = B.norm();
   if (of_B == 0 || A.rows() == 0) return {};
   const Eigen::GeneralizedEigenSolver<Matrix> of(A / of_A, B / of_B, false);
-  if (of.info() != Eigen::Success) return {};
+  if (of.info() != Eigen::Success || !of.alphas().allFinite() || !of.betas().allFinite())
+    throw std::runtime_error("the eigenvalues of the pair of matrices could not be computed");
   std::vector<std::complex<double>> finite;
   for (Eigen::Index i = 0; i < A.rows(); ++i)
     if (std::abs(of.betas()[i]) > smallest_finite * std::abs(of.alphas()[i]))

@@ -98,23 +98,35 @@ Monitor crossing_monitor(CurveOf curve, std::size_t k, bool of_pair) {
   return monitor;
 }
 
-// The last sign of l1, which it keeps among neutral saddles.
 struct LastLyapunov {
-  double value = 1;
+  double value = std::numeric_limits<double>::quiet_NaN();  // l1, which it keeps among neutral saddles
+  double least = std::numeric_limits<double>::infinity();   // |l1| since the last change of sign
 };
 
+double lyapunov_at(const Accepted& now) {
+  const PlaceOnCurve place(now);
+  return hopf_form_near(place.at(), place.place(), frequency_of_curve(now)).lyapunov.value;
+}
+
 Monitor generalized_hopf_monitor() {
+  // l1 changes its sign at its zeros, and at its poles, which are zero-Hopf points.
+  constexpr double of_zero = 1e3;  // |l1| over the least one that was seen
   Monitor monitor;
   monitor.name = "generalized_hopf";
   monitor.value = [](const Accepted& now) {
     auto& last = now.scratch.get<LastLyapunov>();
     if (!(square_of_frequency(now) > 0)) return last.value;
-    const PlaceOnCurve place(now);
-    const Coefficient l1 = hopf_form_near(place.at(), place.place(), frequency_of_curve(now)).lyapunov;
-    if (std::isfinite(l1.value)) last.value = l1.value;
-    return l1.value;
+    const double l1 = lyapunov_at(now);
+    if (std::isfinite(l1)) last = {l1, std::min(last.least, std::abs(l1))};
+    return l1;
   };
-  monitor.is_event = [](const Accepted& now) { return square_of_frequency(now) > 0; };
+  monitor.is_event = [](const Accepted& now) {
+    if (!(square_of_frequency(now) > 0)) return false;
+    auto& last = now.scratch.get<LastLyapunov>();
+    const bool is_zero = std::abs(lyapunov_at(now)) <= of_zero * last.least;
+    last.least = std::numeric_limits<double>::infinity();
+    return is_zero;
+  };
   monitor.describe = [](const Accepted& now) -> EventData {
     const PlaceOnCurve place(now);
     return generalized_hopf_form(place.at(), place.place(), frequency_of_curve(now));

@@ -152,6 +152,16 @@ void write_texts(std::ostream& out, const Figure& figure) {
         << text.colour << "'\n";
 }
 
+/// The characters of a title over the middle of the axes, which a wide key at their side moves to the left.
+int room_for_title(const Figure& figure) {
+  constexpr int across = 96, least = 24;  // characters
+  constexpr double of_key = 1.3;          // of a title, for a character of the key
+  std::size_t longest = 0;
+  for (const FigureKeyEntry& entry : figure.key) longest = std::max(longest, entry.text.size());
+  const int room = across - static_cast<int>(of_key * static_cast<double>(longest + 6));
+  return std::clamp(room, least, longest_title);
+}
+
 /// The names of the parameters, one a line, and room for the longest: gnuplot reserves none for the title of
 /// a key.
 void write_key_title(std::ostream& out, const Figure& figure) {
@@ -243,7 +253,7 @@ void write_gnuplot_script(std::ostream& out, std::span<const Figure> figures, co
   for (std::size_t i = 0; i < images.size(); ++i) {
     const Figure& figure = figures[i];
     out << "\n# " << images[i] << '\n';
-    std::vector<std::string> title = {shortened(figure.title, longest_title)};
+    std::vector<std::string> title = {shortened(figure.title, room_for_title(figure))};
     if (!figure.note.empty()) title.push_back(figure.note);
     out << "set title " << quoted_lines(title) << " noenhanced font ',16'\n";
     write_key_title(out, figure);

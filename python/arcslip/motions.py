@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 #: Instants at the ends of a period differ from them by rounding, relative to the period.
 ROUNDING = 1e-9
+#: Instants of a period: a computation of more would take minutes, which nothing ends.
+MOST_STEPS = 1_000_000
 
 
 class Loop(NamedTuple):
@@ -91,17 +93,21 @@ def _at_row(result: Result, of: Any, steps: int) -> Motion:
     if isinstance(of, Row):
         table, row = of._place()
     else:
-        table, row = result.main, range(len(result.main))[operator.index(of)]
+        if not isinstance(of, (int, np.integer)):
+            raise TypeError(f"found {of!r}, must be the index of a point, or a row of events")
+        if not -len(result.main) <= of < len(result.main):
+            raise IndexError(f"found point {of}, the {result.noun} has {len(result.main)}")
+        table, row = result.main, range(len(result.main))[of]
     names = [name for name, each in result.tables.items() if each is table]
     if not names:
         raise ValueError(f"found a row that is not of this {result.noun}")
-    if steps < 1:
-        raise ValueError(f"found steps={steps}, must be at least 1")
+    if not 1 <= steps <= MOST_STEPS:
+        raise ValueError(f"found steps={steps}, must be from 1 to {MOST_STEPS}")
     history = result._history(list(result.tables).index(names[0]), row, steps) if result._history else None
     if history is None:
         raise ValueError(
-            f"found a {result.noun} of kind {result.kind!r} without motions: those of branches by harmonic balance are kept,"
-            " until they are saved or pickled; scene.point(frequency=...) and scene.time(frequency=...) compute others"
+            f"found a {result.noun} of kind {result.kind!r} without motions: only those of branches and modes by harmonic"
+            " balance are kept, and not in files; scene.point(frequency=...) and scene.time(frequency=...) compute others"
         )
     return Motion(history, float(history["time"][-1]))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from . import _core
+from .names import nearest
 from .quantities import Quantity
 
 
@@ -40,6 +41,8 @@ class Parameters(Mapping[str, Parameter]):
         }
 
     def __getitem__(self, name: str) -> Parameter:
+        if name not in self._all:
+            raise KeyError(f"no parameter {name!r}{nearest(name, self._all)}")
         return self._all[name]
 
     def __iter__(self) -> Iterator[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
@@ -11,7 +12,7 @@ from typing import Any, NamedTuple
 
 from . import _core
 from .ensembles.ensemble import Ensemble, ensemble
-from .files.arrays import as_json
+from .files.arrays import as_json, with_contents
 from .files.mat_program import provide
 from .methods import StudyMethods
 from .parameters import Parameters
@@ -143,11 +144,9 @@ class Scene(StudyMethods):
             For an unknown parameter, one that is given by a formula and a number for it, a value
             outside its bounds, or a formula that is wrong.
         """
-        pairs = [
-            (name, value if isinstance(value, str) else float(value))
-            for name, value in (values or {}).items()
-        ]
-        return Scene._of(self._data.replace(pairs, harmonics, accuracy))
+        pairs = [(name, value if isinstance(value, str) else _number(name, value)) for name, value in (values or {}).items()]
+        order = None if harmonics is None else operator.index(harmonics)
+        return Scene._of(self._data.replace(pairs, order, accuracy))
 
     def run(
         self,
@@ -235,7 +234,7 @@ class Scene(StudyMethods):
         ----------
         folder : path, optional
             Where the file is to be: paths in the text are relative to it, and the arrays that stand in place of files are
-            written there, into ``arrays/``. By default paths are those of the scene.
+            written there, into ``arrays/``. By default paths are those of the scene, and arrays are named but not written.
 
         Raises
         ------
@@ -246,8 +245,7 @@ class Scene(StudyMethods):
         """
         if folder is None:
             return self._data.write()
-        before, after = Path(self._data.folder), Path(folder)
-        arrays = {path: text for path, text in self._data.files().items() if not (before / path).exists()}
+        arrays, after = self._in_memory(), Path(folder)
         for path, text in arrays.items():
             if (after / path).exists() and (after / path).read_bytes() != text:
                 raise FileExistsError(f"{after / path} is another file, which is left as it is")
@@ -257,9 +255,18 @@ class Scene(StudyMethods):
         return self._data.write_in(os.fspath(folder), list(arrays))
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what a scene file holds, with every default."""
-        found: dict[str, Any] = json.loads(self._data.write())
+        """Return what a scene file holds, with every default, and what stands in place of files, as `Scene` takes it."""
+        found: dict[str, Any] = with_contents(json.loads(self._data.write()), self._in_memory())
         return found
+
+    def _in_memory(self) -> dict[str, bytes]:
+        """Return what stands in place of files, by their paths."""
+        folder = Path(self._data.folder)
+
+        def is_of_disk(path: str, text: bytes) -> bool:
+            return (folder / path).is_file() and (folder / path).read_bytes() == text
+
+        return {path: text for path, text in self._data.files().items() if not is_of_disk(path, text)}
 
     def _content(self) -> str:
         found = self._hash or self._data.hash()
@@ -286,6 +293,13 @@ class Scene(StudyMethods):
 
     def _repr_html_(self) -> str:
         return of_scene(self)
+
+
+def _number(name: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"found {value!r} for {name!r}, must be a number or a text") from None
 
 
 def _restored(text: str, folder: str, files: dict[str, bytes]) -> Scene:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import json
 import keyword
+import math
 import textwrap
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -61,9 +62,30 @@ def run(
             error.results = results  # type: ignore[attr-defined]
             raise error
     warn(found, 3)
+    _warn_of_combinations(core, which[:begun], results)
     if begun < len(which):
         warnings.warn(f"stopped: {len(which) - begun} of {len(which)} studies were not started", ArcslipWarning, 3)
     return results
+
+
+def _combinations(for_each: Any) -> int:
+    """Return the number of combinations; 0 where a file has them."""
+    if isinstance(for_each, list):
+        return len(for_each)
+    if not isinstance(for_each, dict):
+        return 0
+    return for_each["count"] if "distributions" in for_each else math.prod(len(values) for values in for_each.values())
+
+
+def _warn_of_combinations(core: _core.Scene, which: Sequence[int], results: Results) -> None:
+    """Warn of combinations that were not begun, where a computation was stopped."""
+    if all(result.status != "stopped" for result in results):
+        return
+    studies = json.loads(core.write())["studies"]
+    for name, for_each in ((studies[i]["name"], studies[i].get("for_each", {})) for i in which):
+        count, begun = _combinations(for_each), len({tuple(result.set.items()) for result in results.of(name)})
+        if begun < count:
+            warnings.warn(f"stopped: {count - begun} of {count} combinations of {name!r} were not started", ArcslipWarning, 4)
 
 
 def argument(key: str) -> str:

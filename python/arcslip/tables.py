@@ -133,7 +133,8 @@ class Table(Named, Sequence[Row]):
             return Table(short, self._count, lambda i: self._by_name(inner[i]), units)
         if "kind" in self._places and name in (kinds := self._by_name("kind")):
             return self._some(np.flatnonzero(kinds == name))
-        raise KeyError(f"no column {name!r}{nearest(name, [*self._places, *self.heads()])}")
+        kinds = dict.fromkeys(self._by_name("kind").tolist()) if "kind" in self._places else ()
+        raise KeyError(f"no column {name!r}{nearest(name, [*self._places, *self.heads(), *kinds])}")
 
     def to_dataframe(self) -> pandas.DataFrame:
         """Return the table as a data frame, a column for each column.

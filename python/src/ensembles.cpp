@@ -4,7 +4,9 @@
 #include "supervised.hpp"
 
 #include <arcslip/ensemble/ensemble.hpp>
+#include <arcslip/model/reduction_report.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/studies/windows.hpp>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/pair.h>
@@ -21,6 +23,13 @@ namespace nb = nanobind;
 namespace arcslip::python {
 namespace {
 
+/// The scene with a window of its study, which is proposed where it has none.
+scene::Scene with_window(scene::Scene scene, std::size_t study, const control::Control& control) {
+  observables::prepare(scene, control);
+  studies::propose_window(scene, study, control);
+  return scene;
+}
+
 /// Computes samples begin to end - 1 of a study into a file. Returns how many are there, how many of them are
 /// not complete, and what ended it: None, or the exception of a signal or of `report`.
 nb::tuple run_ensemble(const scene::Scene& scene, std::size_t study, const std::string& keep,
@@ -29,6 +38,7 @@ nb::tuple run_ensemble(const scene::Scene& scene, std::size_t study, const std::
   if (study >= scene.studies.size()) throw nb::index_error("no such study");
   ensemble::Outcome outcome;
   const auto ended_by = supervised(report, [&](const control::Control& control) {
+    const scene::Scene whole = with_window(scene, study, control);
     const auto show = [&](const ensemble::Progress& now) {
       control::Progress progress;
       progress.branch = static_cast<int>(now.done);
@@ -38,7 +48,7 @@ nb::tuple run_ensemble(const scene::Scene& scene, std::size_t study, const std::
       progress.counted = "not complete";
       control.report(progress);
     };
-    outcome = ensemble::run(scene, scene.studies[study],
+    outcome = ensemble::run(whole, whole.studies[study],
                             {.path = path,
                              .keep = keep,
                              .samples = ensemble::Range{samples.first, samples.second},
@@ -55,8 +65,10 @@ nb::tuple run_ensemble(const scene::Scene& scene, std::size_t study, const std::
 std::vector<std::pair<long, long>> missing_samples(const scene::Scene& scene, std::size_t study,
                                                    const std::string& keep, const std::string& path) {
   std::vector<std::pair<long, long>> all;
+  if (study >= scene.studies.size()) throw nb::index_error("no such study");
+  const scene::Scene whole = with_window(scene, study, {});
   for (const ensemble::Range& range :
-       ensemble::prepare_file(scene, scene.studies.at(study), {.path = path, .keep = keep}))
+       ensemble::prepare_file(whole, whole.studies[study], {.path = path, .keep = keep}))
     all.emplace_back(range.begin, range.end);
   return all;
 }

@@ -230,8 +230,13 @@ def test_samples_are_columns_of_files_and_tables(scene: arcslip.Scene, tmp_path:
     parquet.write_table(arrow.table(columns), tmp_path / "mc.parquet")
     pandas.DataFrame(columns).to_csv(tmp_path / "mc.csv", index=False, float_format="%.17g")
     rows = np.array(list(zip(*columns.values(), strict=True)), dtype=[(name, float) for name in columns])
-    for samples in (tmp_path / "mc.parquet", str(tmp_path / "mc.csv"), arrow.table(columns), rows, pandas.DataFrame(columns)):
+    expected.to_parquet(tmp_path / "own.parquet")
+    for samples in (tmp_path / "own.parquet", expected.to_dataframe(), tmp_path / "mc.parquet", str(tmp_path / "mc.csv"), arrow.table(columns), rows, pandas.DataFrame(columns)):
         assert same(scene.ensemble(samples), expected)
+    with pytest.raises(ValueError, match="is the file of the ensemble itself"):
+        expected.to_npz(expected.path)
+    with pytest.raises(TypeError, match="found executor=4"):
+        scene.ensemble(columns, executor=4)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="found samples of type ndarray"):
         scene.ensemble(np.ones((3, 2)))
     (tmp_path / "wrong.csv").write_text("k.value\n1,2\n")
@@ -278,7 +283,21 @@ def test_sobol_indices_are_those_of_a_product(scene: arcslip.Scene) -> None:
         scene.ensemble(DISTRIBUTIONS).sobol_indices("frequency")
     with pytest.raises(ValueError, match="found count=100, must be a power of two"):
         arcslip.saltelli(lognormal, 100)
+    for nothing in ({}, {"k.value": {}}):
+        with pytest.raises(ValueError, match="must have one distribution"):
+            arcslip.saltelli(nothing, 8)
     with pytest.raises(ValueError, match="found the distribution 'gamma' of 'k.value'"):
         arcslip.saltelli({"k.value": {"gamma": [1, 2]}}, 8)
     with pytest.raises(ValueError, match="is the same in all samples"):
         found.sobol_indices("results")
+
+
+def test_scene_without_studies_takes_a_kind(oscillator: dict[str, Any]) -> None:
+    studies = oscillator.pop("studies")
+    samples = {"damper.normal_load": [3.0, 4.0]}
+    scene = arcslip.Scene(oscillator)
+    with pytest.raises(ValueError, match="the scene has no study: name a kind"):
+        scene.ensemble(samples)
+    found = scene.ensemble(samples, study="frf")
+    expected = arcslip.Scene(oscillator | {"studies": studies}).ensemble(samples)
+    np.testing.assert_allclose(found.amplitude, expected.amplitude, rtol=1e-6)

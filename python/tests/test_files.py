@@ -107,3 +107,13 @@ def test_file_that_holds_no_results_is_refused(tmp_path: Path, examples: Path, s
     scene.ensemble({"damper.normal_load": [2.0, 3.0]}, study="response", path=tmp_path / "samples.sqlite")
     with pytest.raises(ValueError, match=r"holds an ensemble: arcslip.Ensemble\("):
         arcslip.load(tmp_path / "samples.sqlite")
+
+
+def test_files_of_events_and_damaged_ones_are_not_taken_for_points(command: Path, examples: Path, tmp_path: Path) -> None:
+    subprocess.run([command, "frf", examples / "duffing/scene.json", "--csv", tmp_path / "c.csv", "--quiet"], check=True, capture_output=True)
+    for name in ("events", "summary"):
+        with pytest.raises(ValueError, match=f"has the {name} of c.csv, which is to be named"):
+            arcslip.load(tmp_path / f"c.{name}.csv")
+    (tmp_path / "cut.json").write_text('{"format": "arcslip-branches-1", ')
+    with pytest.raises(ValueError, match="cut.json is no JSON, or not complete"):
+        arcslip.load(tmp_path / "cut.json")

@@ -144,8 +144,9 @@ def test_results_without_motions_say_so(scene: arcslip.Scene, oscillator: dict[s
         branch.motion(len(branch))
     with pytest.raises(ValueError, match="a row that is not of this branch"):
         branch.motion(exact.events[0])
-    with pytest.raises(ValueError, match="found steps=0"):
-        branch.motion(0, steps=0)
+    for steps in (0, 10**9, 2**40):
+        with pytest.raises(ValueError, match=f"found steps={steps}, must be from 1 to"):
+            branch.motion(0, steps=steps)
     with pytest.raises(TypeError):
         branch.motion("peak")  # type: ignore[arg-type]
     unbounded = scene.replace({"c.value": 0, "damper.normal_load": 0}).frf()

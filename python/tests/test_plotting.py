@@ -133,6 +133,23 @@ def test_axes_have_a_prefix_that_suits_their_numbers(scene: arcslip.Scene) -> No
     assert ticks and all(shown == pytest.approx(1e3 * value, rel=1e-5) for shown, value in ticks)
 
 
+def test_axis_without_a_power_of_ten_has_numbers(scene: arcslip.Scene) -> None:
+    ax = scene.replace({"damper.normal_load": 20.0}).frf(from_=10.0, to=11.5)[0].plot()
+    ax.figure.canvas.draw()
+    shown = [text.get_text() for text in (*ax.get_yticklabels(), *ax.get_yticklabels(minor=True)) if text.get_text()]
+    assert ax.get_yscale() == "log" and len(shown) >= 2 and all(float(text) > 0 for text in shown)
+
+
+def test_responses_at_one_frequency_are_drawn_apart(examples: Path) -> None:
+    scene = arcslip.Scene(examples / "duffing_jenkins/scene.json").replace({"damper.normal_load": 0.8})
+    folds = scene.frf(for_each={})[0].events["fold"].frequency
+    responses = scene.point(frequency=float(folds.mean()), stability=True)
+    assert len(responses) == 3
+    ax = responses.plot()
+    assert len({line.get_color() for line in lines(ax, "-")}) == 3
+    assert sum("unstable" in label for label in labels(ax)) == 1
+
+
 def test_hundreds_of_curves_are_bands_and_say_so(scene: arcslip.Scene) -> None:
     loads = np.linspace(1, 6, 250)
     responses = scene.frf(for_each={"damper.normal_load": loads}, from_=15.0, to=20.0)

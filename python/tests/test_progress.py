@@ -131,3 +131,11 @@ def test_log_of_a_debugging_level_has_the_progress(slow: Slow, caplog: pytest.Lo
 def test_log_is_silent_unless_it_is_asked_for(scene: arcslip.Scene, capfd: pytest.CaptureFixture[str]) -> None:
     scene.frf()
     assert capfd.readouterr() == ("", "")
+
+
+def test_combinations_that_were_not_begun_are_counted(scene: arcslip.Scene) -> None:
+    loads = {"damper.normal_load": [float(i) for i in range(1, 201)]}
+    with pytest.warns(arcslip.ArcslipWarning) as warned:
+        results = scene.frf(for_each=loads, progress=lambda now: False)
+    said = f"stopped: {200 - len(results)} of 200 combinations of 'response' were not started"
+    assert len(results) < 200 and said in [str(each.message) for each in warned]

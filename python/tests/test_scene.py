@@ -244,7 +244,7 @@ def test_arrays_stand_in_place_of_files(tmp_path: Path) -> None:
     ],
 )
 def test_wrong_matrices_are_refused(wrong: Any) -> None:
-    with pytest.raises((arcslip.SceneError, TypeError)):
+    with pytest.raises((arcslip.SceneError, TypeError, ValueError)):
         arcslip.Scene(chain(MASS, wrong))
 
 
@@ -328,7 +328,46 @@ def test_scene_is_written_into_a_folder_with_its_arrays(examples: Path, tmp_path
     with pytest.raises(FileExistsError, match="is another file"):
         scene.to_json(folder=tmp_path)
     assert (tmp_path / "arrays/mass.mtx").read_text() == "of somebody else"
+    other = arcslip.Scene(chain(2 * MASS, STIFFNESS), folder=tmp_path)  # whose arrays have the names of those files
+    with pytest.raises(FileExistsError):
+        other.to_json(folder=tmp_path)
     of_files = arcslip.Scene(examples / "contact_patch/scene.json")
     (tmp_path / "patch.json").write_text(of_files.to_json(folder=tmp_path))
     assert arcslip.Scene(tmp_path / "patch.json").frf(to=70)[0].amplitude.tolist() == of_files.frf(to=70)[0].amplitude.tolist()
     assert len(list((tmp_path / "arrays").iterdir())) == 4
+
+
+def test_dict_of_a_scene_has_its_arrays() -> None:
+    scene = arcslip.Scene(chain(MASS, STIFFNESS))
+    found = scene.to_dict()
+    assert arcslip.Scene(found) == scene
+    assert "content of arrays/mass.mtx" in repr(found["structure"]["matrices"]["mass"])
+    found["studies"].append({"name": "mode", "kind": "modes", "amplitude": [1e-5, 1e-3]})
+    assert len(arcslip.Scene(found).studies) == 2
+
+
+def test_matrices_may_be_lists_of_rows_and_data_frames() -> None:
+    pandas = pytest.importorskip("pandas")
+    expected = arcslip.Scene(chain(MASS, STIFFNESS))
+    assert arcslip.Scene(chain(MASS.tolist(), pandas.DataFrame(STIFFNESS))) == expected
+
+
+def test_numbers_that_are_not_finite_have_their_place(oscillator: dict[str, Any]) -> None:
+    stiffness = STIFFNESS.copy()
+    stiffness[1, 2] = np.nan
+    with pytest.raises(ValueError, match=r"found nan at \[1, 2\] of a matrix"):
+        arcslip.Scene(chain(MASS, stiffness))
+    scene = arcslip.Scene(oscillator)
+    with pytest.raises(ValueError, match="found inf in 'to', must be a finite number"):
+        scene.frf(to=math.inf)
+    with pytest.raises(ValueError, match="found nan in 'damper.normal_load'"):
+        scene.frf(for_each={"damper.normal_load": [1.0, math.nan]})
+
+
+def test_wrong_values_name_their_parameter(scene: arcslip.Scene) -> None:
+    with pytest.raises(TypeError, match=r"found array\(\[1., 2.\]\) for 'damper.normal_load'"):
+        scene.replace({"damper.normal_load": np.array([1.0, 2.0])})  # type: ignore[dict-item]
+    with pytest.raises(TypeError):
+        scene.replace(harmonics=7.5)  # type: ignore[arg-type]
+    with pytest.raises(KeyError, match="no parameter 'damper.normal_lod'; the nearest is 'damper.normal_load'"):
+        scene.parameters["damper.normal_lod"]

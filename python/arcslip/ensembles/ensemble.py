@@ -21,6 +21,7 @@ from .. import _core
 from ..errors import ArcslipWarning
 from ..files.arrays import as_json
 from ..files.sqlite_files import column, connected, quoted
+from ..names import nearest
 from ..progress import Progress, Report, reporting
 from ..tables import Table
 from ..threads import available, checked
@@ -157,19 +158,22 @@ def _with_samples(scene: Scene, samples: Any, study: str | None) -> tuple[_core.
     """Return the scene with these samples, and the index of its study."""
     core = scene._data
     own = [name for name, _ in core.studies()]
-    if not own:
-        raise ValueError("the scene has no study")
-    if study is not None and study not in own:
-        raise ValueError(f"found study={study!r}, must be one of {own}")
+    kinds = [kind["name"] for kind in _core.kinds()]
+    if not own and study is None:
+        raise ValueError(f"the scene has no study: name a kind of study, as study={kinds[0]!r}")
+    if study is not None and study not in [*own, *kinds]:
+        raise ValueError(f"found study={study!r}, must be one of {own}, or a kind of study{nearest(study, [*own, *kinds])}")
     if samples is None:
         studies = json.loads(core.write())["studies"]
         wanted = [i for i, each in enumerate(studies) if each["for_each"] and study in (None, each["name"])]
         if not wanted:
             raise ValueError("the study has no samples: give some, or a scene whose study has them as \"for_each\"")
         return core, wanted[0]
-    index = own.index(study) if study is not None else 0
+    index = own.index(study) if study in own else 0
     for_each = dict(samples) if isinstance(samples, Mapping) and "distributions" in samples else _rows(samples)
     text, _ = as_json({"for_each": for_each})
+    if study is not None and study not in own:
+        return core.with_study(study, None, text)
     return core.with_study(core.studies()[index][1], index, text)
 
 
@@ -307,6 +311,8 @@ def ensemble(
 ) -> Ensemble:
     """Compute an ensemble: `Scene.ensemble`."""
     checked(threads)
+    if executor is not None and not hasattr(executor, "submit"):
+        raise TypeError(f"found executor={executor!r}, must be one of concurrent.futures, or None")
     core, index = _with_samples(scene, samples, study)
     names = keep if isinstance(keep, str) else ",".join(keep)
     if path is not None:

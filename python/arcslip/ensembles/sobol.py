@@ -87,6 +87,8 @@ def saltelli(
     """
     if count < 2 or count & (count - 1):
         raise ValueError(f"found count={count}, must be a power of two, at least 2")
+    if not distributions or any(len(each) != 1 for each in distributions.values()):
+        raise ValueError(f"found distributions={distributions!r}, must have one distribution for each of some parameters")
     design = required("SALib.sample.sobol", "ensemble")
     found = [_bounds(name, *next(iter(each.items()))) for name, each in distributions.items()]
     problem = {

@@ -28,8 +28,14 @@ def _batches(ensemble: Ensemble) -> Iterator[list[tuple[Any, ...]]]:
             yield batch
 
 
+def _check_place(ensemble: Ensemble, path: str | os.PathLike[str]) -> None:
+    if Path(path).exists() and Path(path).samefile(ensemble.path):
+        raise ValueError(f"{os.fspath(path)} is the file of the ensemble itself, which is left as it is")
+
+
 def write_parquet(ensemble: Ensemble, path: str | os.PathLike[str]) -> None:
     """Write the samples, some at a time; the metadata of each column has its unit."""
+    _check_place(ensemble, path)
     arrow, parquet = required("pyarrow", "ensemble"), required("pyarrow.parquet", "ensemble")
     kinds = {"INTEGER": arrow.int64(), "REAL": arrow.float64(), "TEXT": arrow.string()}
     with closing(connected(ensemble.path)) as file:
@@ -49,6 +55,7 @@ def write_parquet(ensemble: Ensemble, path: str | os.PathLike[str]) -> None:
 
 def write_npz(ensemble: Ensemble, path: str | os.PathLike[str]) -> None:
     """Write the samples as `numpy.load` reads them, a column at a time."""
+    _check_place(ensemble, path)
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for name in ensemble.columns:
             with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
@@ -64,16 +71,24 @@ def columns_of(samples: Any) -> Mapping[str, Any]:
         If they are something else.
     """
     if isinstance(samples, (str, os.PathLike)):
-        return _columns_of_file(Path(samples))
+        return _parameters_of(_columns_of_file(Path(samples)))
     if isinstance(samples, np.ndarray) and samples.dtype.names:
         return {name: samples[name] for name in samples.dtype.names}
     if isinstance(samples, Mapping):
         return samples
     if hasattr(samples, "column_names"):  # of pyarrow
-        return {name: samples[name].to_numpy() for name in samples.column_names}
+        return _parameters_of({name: samples[name].to_numpy() for name in samples.column_names})
     if hasattr(samples, "keys"):
-        return {str(name): samples[name] for name in samples.keys()}  # noqa: SIM118, of data frames
+        return _parameters_of({str(name): samples[name] for name in samples.keys()})  # noqa: SIM118, of data frames
     raise TypeError(f"found samples of type {type(samples).__name__}, must be columns by name, or a file with some")
+
+
+def _parameters_of(columns: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return the parameters of the samples of an ensemble, between their numbers and their status; else all columns."""
+    names = list(columns)
+    if names[:1] != ["sample"] or "status" not in names:
+        return columns
+    return {name: columns[name] for name in names[1 : names.index("status")]}
 
 
 def _columns_of_file(path: Path) -> Mapping[str, Any]:

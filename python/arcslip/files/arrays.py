@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -16,6 +17,15 @@ MATRIX_KEYS = frozenset(
 
 def _is_array(value: Any) -> bool:
     return isinstance(value, np.ndarray) or hasattr(value, "tocoo")
+
+
+def _as_matrix(value: Any) -> Any:
+    """Return an array of a matrix, also of a data frame or of lists of rows; None for something else."""
+    if hasattr(value, "to_numpy"):
+        return value.to_numpy()
+    if isinstance(value, list) and value and all(isinstance(row, list) for row in value):
+        return np.asarray(value, dtype=float)
+    return value if _is_array(value) and getattr(value, "ndim", 2) > 0 else None
 
 
 def matrix_market(value: Any) -> bytes:
@@ -35,6 +45,10 @@ def matrix_market(value: Any) -> bytes:
         values, shape = full[rows, columns], full.shape
     if values.dtype.kind not in "fiub":
         raise TypeError(f"found an array of {values.dtype}, must be real numbers")
+    wrong = np.flatnonzero(~np.isfinite(values.astype(np.float64)))
+    if len(wrong):
+        i = wrong[0]
+        raise ValueError(f"found {values[i]} at [{rows[i]}, {columns[i]}] of a matrix, must be finite")
     entries = zip(rows.tolist(), columns.tolist(), values.astype(np.float64).tolist(), strict=True)
     lines = [f"{i + 1} {j + 1} {value!r}\n" for i, j, value in entries]
     head = f"%%MatrixMarket matrix coordinate real general\n{shape[0]} {shape[1]} {len(lines)}\n"
@@ -82,6 +96,26 @@ def csv_table(columns: Mapping[str, Sequence[Any]]) -> bytes:
     return ("\n".join(lines) + "\n").encode()
 
 
+class FileContent:
+    """What stands in a dict in place of a file that is nowhere but in a scene."""
+
+    def __init__(self, path: str, content: bytes) -> None:
+        self.path = path
+        self.content = content
+
+    def __repr__(self) -> str:
+        return f"<content of {self.path}, {len(self.content)} bytes>"
+
+
+def with_contents(value: Any, files: Mapping[str, bytes]) -> Any:
+    """Return a value of a scene with these files in place of their paths."""
+    if isinstance(value, dict):
+        return {key: with_contents(each, files) for key, each in value.items()}
+    if isinstance(value, list):
+        return [with_contents(each, files) for each in value]
+    return FileContent(value, files[value]) if isinstance(value, str) and value in files else value
+
+
 class Files:
     """Takes the arrays out of a scene, and puts the names of files in their place."""
 
@@ -100,8 +134,11 @@ class Files:
 
     def plain(self, value: Any, key: str = "", inside: str = "") -> Any:
         """Return a value of a scene as JSON has it."""
-        if key in MATRIX_KEYS and _is_array(value) and getattr(value, "ndim", 2) > 0:
-            return self.add(key, matrix_market(value))
+        if isinstance(value, FileContent):
+            self.contents[value.path] = value.content
+            return value.path
+        if key in MATRIX_KEYS and (matrix := _as_matrix(value)) is not None:
+            return self.add(key, matrix_market(matrix))
         if key == "names" and isinstance(value, Mapping):
             return self.add(key, named_rows(value))
         if key == "faces" and not isinstance(value, str):
@@ -113,9 +150,11 @@ class Files:
         if isinstance(value, Mapping):
             return {str(name): self.plain(each, str(name), key) for name, each in value.items()}
         if isinstance(value, (np.ndarray, np.generic)):
-            return value.tolist()
+            value = value.tolist()
         if isinstance(value, Sequence) and not isinstance(value, (str, bytes)):
-            return [self.plain(each) for each in value]
+            return [self.plain(each, inside=key or inside) for each in value]
+        if isinstance(value, float) and not math.isfinite(value):
+            raise ValueError(f"found {value} in {key or inside!r}, must be a finite number")
         return value
 
 

@@ -150,6 +150,9 @@ def of_tables(path: Path) -> Results | None:
     main = _File(path)
     if "study" not in main.names or not main.noun:
         return None
+    for key in (*FURTHER, "summary"):
+        if path.name.endswith(f".{key}.csv"):
+            raise ValueError(f"{path} has the {key} of {path.name.removesuffix(f'.{key}.csv')}.csv, which is to be named")
     files = {"": main}
     for key in FURTHER:
         further = _file(path.with_name(f"{path.stem}.{key}.csv"))

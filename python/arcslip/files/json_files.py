@@ -59,7 +59,10 @@ def _result(of: Mapping[str, Any], list_: str, units: Mapping[str, Mapping[str, 
 def of_document(path: Path) -> Results | None:
     """Read a file; None if it holds no results."""
     with path.open(encoding="utf-8") as file:
-        all_ = json.load(file)
+        try:
+            all_ = json.load(file)
+        except json.JSONDecodeError as error:
+            raise ValueError(f"{path} is no JSON, or not complete: {error}") from None
     if not isinstance(all_, dict) or not str(all_.get("format", "")).startswith("arcslip-") or "scene_hash" not in all_:
         return None
     units = all_.get("units", {})

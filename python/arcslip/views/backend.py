@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -48,7 +49,15 @@ def set_axis(ax: Axes, name: str, axis: Mapping[str, Any]) -> None:
     factor = axis["factor"]
     of = getattr(ax, f"{name}axis")
     of.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{factor * value:.6g}"))
-    of.set_minor_formatter(ticker.NullFormatter())
+
+    def between_decades(value: float, _: int) -> str:
+        """Return the number of a minor tick: where there are few decades of 2 and 5, where there is not one of all."""
+        lower, upper = sorted(of.get_view_interval())
+        decades = math.log10(upper / lower) if lower > 0 else math.inf
+        digit = round(value / 10 ** math.floor(math.log10(value) + 1e-9)) if value > 0 else 0
+        return f"{factor * value:.6g}" if decades < 0.7 or (decades < 2.5 and digit in (2, 5)) else ""
+
+    of.set_minor_formatter(ticker.FuncFormatter(between_decades) if axis["logarithmic"] else ticker.NullFormatter())
 
 
 def draw_figure(ax: Axes, figure: Mapping[str, Any]) -> None:

@@ -155,7 +155,10 @@ def _parts(result: Result, x: str, y: str) -> Iterator[Part]:
 def _draw_lines(ax: Axes, results: Sequence[Result], x: str, y: str) -> None:
     lines: dict[tuple[tuple[str, Any], ...], list[Result]] = {}
     for result in results:
-        lines.setdefault(_line(result), []).append(result)
+        line = _line(result)
+        if result.noun == "response" and line in lines:  # another one at the same frequency
+            line = (*line, ("response", len(lines)))
+        lines.setdefault(line, []).append(result)
     parameters = list(dict.fromkeys(name for result in results for name in result.set)) if len(lines) > 1 else []
     data = {
         "columns": [_column(results, name) for name in (x, y)],
@@ -185,8 +188,13 @@ def _line_data(results: Sequence[Result], x: str, y: str, *, is_labelled: bool) 
             for kind in dict.fromkeys(kinds.tolist()):
                 if kind != result.facts.get("of"):
                     marks.setdefault(kind, []).append(places[:, kinds == kind])
+    label = _label(results[0])
+    if results[0].noun == "response":
+        stable = {True: "stable", False: "unstable"}.get(results[0].facts.get("stable", ""), "")
+        amplitude = results[0].facts.get("amplitude", 0.0)
+        label = ", ".join(word for word in (label, f"{1e3 * amplitude:.4g} mm", stable) if word)
     return {
-        "label": _label(results[0]) if is_labelled else "",
+        "label": label if is_labelled else "",
         "parts": [np.stack([part.x, part.y], axis=1) for part in parts],
         "unstable": [part.unstable for part in parts],
         "marks": {kind: np.ascontiguousarray(np.concatenate(places, axis=1).T) for kind, places in marks.items()},
