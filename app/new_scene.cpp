@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace arcslip::app {
@@ -20,6 +21,7 @@ using scene::file::Node;
 using Object = Node::Object;
 
 constexpr int digits_kept = 4;                       // of numbers that follow from others
+constexpr int digits_of_window = 3;                  // over the natural frequency
 constexpr double least_load = 0.05, most_load = 20;  // bounds of a normal load, over that of balance
 constexpr double levels[] = {0.1, 0.3, 1, 3, 10};    // of a study for each of them
 constexpr double smallest_motion = 1e-2, largest_motion = 10;  // of modes, over that where friction begins
@@ -117,9 +119,29 @@ Object head(const std::string& title, const std::string& comment) {
           {"frequency_unit", node("Hz")}};
 }
 
-/// The constant "ratio", for formulas.
-Member constant_ratio(double value, const std::string& help) {
-  return {"constants", {Object{{"ratio", {Object{{"value", node(value)}, {"help", node(help)}}}}}}};
+Member constant(const std::string& name, Node value, const std::string& help) {
+  return {name, {Object{{"value", std::move(value)}, {"help", node(help)}}}};
+}
+
+/// The stiffness of a contact or joint over that of the structure, for formulas.
+Member ratio(double value, const std::string& of) {
+  return constant("ratio", node(value), "stiffness of the " + of + " over that of the spring");
+}
+
+/// The load of a contact that the bounds of studies follow. share: of the motion of the response that it has.
+Member balance(const std::string& contact, double share = 1) {
+  std::string value = "force.cosine/" + contact + ".friction_coefficient";
+  if (share != 1) value += "/" + results::shortest(share);
+  return constant("balance", node(value),
+                  share == 1 ? "normal load at which the friction limit equals the force, N"
+                             : "normal load at which friction balances the force, by the deflections, N");
+}
+
+constexpr const char* natural_frequency = "f0";
+
+/// The frequency that windows follow.
+Member frequency_of_mass(const std::string& when) {
+  return constant(natural_frequency, node("sqrt(k/m)/(2*pi)"), "natural frequency " + when + ", Hz");
 }
 
 /// One mass on a spring and a damper, which the frequency and the damping ratio give.
@@ -145,27 +167,32 @@ Object force(const std::string& dof, double amplitude) {
           {"comment", node("amplitude of the force, N")}};
 }
 
-/// frf for several values, the peaks over them and the optimum, of a normal load.
-std::vector<Object> studies_of_load(const std::string& load, double balance) {
-  const std::vector<double> bounds = {rounded(least_load * balance), rounded(most_load * balance)};
+/// A number that follows a constant.
+Node times(double factor, const std::string& constant) {
+  return node(results::shortest(factor) + "*" + constant);
+}
+
+/// frf for several values, the peaks over them and the optimum, of a normal load. value: of the constant
+/// balance.
+std::vector<Object> studies_of_load(const std::string& load, double value) {
+  const Node least = times(least_load, "balance"), most = times(most_load, "balance");
   return {{{"name", node("responses")},
            {"kind", node("frf")},
-           {"for_each", {Object{{load, node(multiples(balance))}}}},
+           {"for_each", {Object{{load, node(multiples(value))}}}},
            {"comment", node("frequency responses for loads around force/friction")}},
           {{"name", node("peaks")},
            {"kind", node("peaks")},
            {"over", node(load)},
-           {"from", node(bounds[0])},
-           {"to", node(bounds[1])},
-           {"comment", node("the resonance peak over the load, 0.05 to 20 times force/friction")}},
+           {"from", least},
+           {"to", most},
+           {"comment", node("the resonance peak over the load")}},
           {{"name", node("best load")},
            {"kind", node("optimum")},
            {"over", {Node::List{node(load)}}},
-           {"bounds", {Node::List{node(bounds)}}},
+           {"bounds", {Node::List{{Node::List{least, most}}}}},
            {"comment", node("the load with the lowest resonance peak, with a certificate")}}};
 }
 
-constexpr const char* ratio_of_contact = "stiffness of the contact over that of the spring";
 constexpr const char* how_to_continue =
     "Written by arcslip new, in kg, m, s and N. Change any number; arcslip check describes the model, "
     "and "
@@ -176,7 +203,9 @@ Object damper(const Given& of) {
   const Derived contact = kept(of("contact-stiffness-ratio") * k, "ratio*k"),
                 load = derived(of("force") / of("friction"), "force/friction");
   Object root = head("A mass with a friction damper", how_to_continue);
-  root.push_back(constant_ratio(of("contact-stiffness-ratio"), ratio_of_contact));
+  root.push_back({"constants",
+                  {Object{ratio(of("contact-stiffness-ratio"), "contact"),
+                          frequency_of_mass("without friction"), balance("damper")}}});
   root.push_back({"structure", {one_mass("mass", mass, of("frequency"), of("damping-ratio"))}});
   root.push_back({"elements", list({{{"name", node("damper")},
                                      {"type", node("jenkins")},
@@ -187,7 +216,7 @@ Object damper(const Given& of) {
                                      {"comment", node("a spring in series with a slider; " +
                                                       formulas({{"normal_load", load}}))}}})});
   root.push_back({"excitation", list({force("mass", of("force"))})});
-  root.push_back({"studies", list(studies_of_load("damper.normal_load", load.value))});
+  root.push_back({"studies", list(studies_of_load("damper.normal_load", of("force") / of("friction")))});
   return root;
 }
 
@@ -203,9 +232,9 @@ Object beam(const Given& of) {
   const Derived contact =
       derived(of("contact-stiffness-ratio") * k,
               results::shortest(of("contact-stiffness-ratio")) + " * 3 E I/a^3, with the contact at a");
-  const Derived load =
-      derived(of("force") / of("friction") / deflection_of_cantilever(of("contact-position")),
-              "force/friction, by the deflection of the tip over that of the contact");
+  const double deflection = rounded(deflection_of_cantilever(of("contact-position")));
+  const Derived load = derived(of("force") / of("friction") / deflection,
+                               "force/friction, by the deflection of the tip over that of the contact");
   const double area = of("width") * of("height");
   const double first = first_root_of_cantilever * first_root_of_cantilever / (length * length) *
                        std::sqrt(of("young") * inertia / (of("density") * area)) / circle;
@@ -215,6 +244,7 @@ Object beam(const Given& of) {
   if (place != "tip") points.push_back({place, node(at)});
   points.push_back({"tip", node(length)});
   Object root = head("A cantilever beam with a friction damper", how_to_continue);
+  root.push_back({"constants", {Object{balance("damper", deflection)}}});
   root.push_back(
       {"structure",
        {Object{{"beam",
@@ -243,7 +273,8 @@ Object beam(const Given& of) {
                           {"comment", node(formulas({{"stiffness", contact}, {"normal_load", load}}))}}})});
   root.push_back({"excitation", list({force("tip", of("force"))})});
   root.push_back({"response", {Object{{"at", node("tip")}}}});
-  root.push_back({"studies", list(studies_of_load("damper.normal_load", load.value))});
+  root.push_back(
+      {"studies", list(studies_of_load("damper.normal_load", of("force") / of("friction") / deflection))});
   return root;
 }
 
@@ -259,6 +290,7 @@ Object duffing(const Given& of) {
   const double linear =
       of("force") / (2 * of("damping-ratio") * k);  // at resonance, without the cubic spring
   Object root = head("A Duffing oscillator", how_to_continue);
+  root.push_back({"constants", {Object{frequency_of_mass("of small motions")}}});
   root.push_back({"structure", {one_mass("x", mass, of("frequency"), of("damping-ratio"))}});
   root.push_back(
       {"elements",
@@ -302,7 +334,9 @@ Object contact(const Given& of) {
        list({{{"name", node("c")}, {"at", node("slide")}, {"damping_ratio", node(of("damping-ratio"))}},
              {{"name", node("c2")}, {"at", node("press")}, {"damping_ratio", node(of("damping-ratio"))}}})}};
   Object root = head("A mass that slides and presses on a contact", how_to_continue);
-  root.push_back(constant_ratio(of("contact-stiffness-ratio"), ratio_of_contact));
+  root.push_back({"constants",
+                  {Object{ratio(of("contact-stiffness-ratio"), "contact"),
+                          frequency_of_mass("of sliding without friction"), balance("contact")}}});
   root.push_back({"structure", {structure}});
   root.push_back(
       {"elements", list({{{"name", node("contact")},
@@ -319,7 +353,7 @@ Object contact(const Given& of) {
       {"excitation", list({force("slide", of("force")),
                            {{"name", node("pressing")}, {"at", node("press")}, {"sine", node(press)}}})});
   root.push_back({"response", {Object{{"at", node("slide")}}}});
-  root.push_back({"studies", list(studies_of_load("contact.normal_load", load.value))});
+  root.push_back({"studies", list(studies_of_load("contact.normal_load", of("force") / of("friction")))});
   return root;
 }
 
@@ -329,8 +363,8 @@ Object joint(const Given& of) {
   const Derived stiffness = kept(of_joint, "ratio*k");
   const double slip = of("slip-force") / of_joint;  // deflection of the joint at macroslip, without microslip
   Object root = head("A mass on a joint with microslip", how_to_continue);
-  root.push_back(
-      constant_ratio(of("joint-stiffness-ratio"), "stiffness of the joint over that of the spring"));
+  root.push_back({"constants",
+                  {Object{ratio(of("joint-stiffness-ratio"), "joint"), frequency_of_mass("without joint")}}});
   root.push_back({"structure", {one_mass("mass", mass, of("frequency"), of("damping-ratio"))}});
   root.push_back(
       {"elements",
@@ -418,9 +452,10 @@ Object from_matrices(const Given& of, NewScene& scene) {
                                            {"ratio", node(of("damping-ratio"))},
                                            {"comment", node("damping ratio of each mode")}}})});
   Object root = head("A structure from matrices", how_to_continue);
-  root.push_back({"structure", {structure}});
   const bool has_contact = !rows.contact.empty();
-  const double balance = of("force") / of("friction");
+  if (has_contact) root.push_back({"constants", {Object{balance("damper")}}});
+  root.push_back({"structure", {structure}});
+  const double load = of("force") / of("friction");
   if (has_contact) {
     if (!of.has("contact-stiffness")) throw UsageError("--contact needs --contact-stiffness K, in N/m");
     root.push_back({"elements", list({{{"name", node("damper")},
@@ -428,15 +463,27 @@ Object from_matrices(const Given& of, NewScene& scene) {
                                        {"between", to_ground(rows.contact)},
                                        {"stiffness", node(of("contact-stiffness"))},
                                        {"friction_coefficient", node(of("friction"))},
-                                       {"normal_load", node(rounded(balance))},
+                                       {"normal_load", node(rounded(load))},
                                        {"comment", node("normal_load = force/friction")}}})});
   }
   root.push_back({"excitation", list({force(rows.force, of("force"))})});
   root.push_back({"response", {Object{{"at", node(rows.response)}}}});
   std::vector<Object> studies = {{{"name", node("responses")}, {"kind", node("frf")}}};
-  if (has_contact) studies = studies_of_load("damper.normal_load", balance);
+  if (has_contact) studies = studies_of_load("damper.normal_load", load);
   root.push_back({"studies", list(std::move(studies))});
   return root;
+}
+
+/// Frequencies as multiples of the constant f0, for a scene that has it.
+Node following(const Node& window, std::optional<double> f0) {
+  if (!f0) return window;
+  if (const auto* value = std::get_if<double>(&window.value))
+    return node(results::to_digits(*value / *f0, digits_of_window) + "*" + natural_frequency);
+  const auto* values = std::get_if<Node::List>(&window.value);
+  if (values == nullptr) return window;
+  Node::List all;
+  for (const Node& each : *values) all.push_back(following(each, f0));
+  return {std::move(all)};
 }
 
 /// Writes the windows that are proposed into the studies of the scene.
@@ -449,6 +496,10 @@ void add_windows(Object& root, const std::string& folder, const scene::Catalogue
   scene::Scene scene =
       scene::read(scene::file::print_tree({root}), catalogue, folder, std::move(known), control);
   auto& studies = std::get<Node::List>(root.back().value.value);
+  const auto names = scene::parameter_names(scene);
+  std::optional<double> f0;
+  if (std::find(names.begin(), names.end(), natural_frequency) != names.end())
+    f0 = scene::value(scene, natural_frequency);
   for (std::size_t i = 0; i < scene.studies.size(); ++i) {
     if (studies::propose_window(scene, i, control).empty()) continue;
     const scene::Study& study = scene.studies[i];
@@ -460,68 +511,14 @@ void add_windows(Object& root, const std::string& folder, const scene::Catalogue
       const bool is_window = std::any_of(keys.begin(), keys.end(), [&](const scene::Key& key) {
         return key.name == member.key && key.unit == "frequency";
       });
-      if (is_window) object.insert(object.end() - (object.back().key == "comment" ? 1 : 0), member);
+      if (is_window)
+        object.insert(object.end() - (object.back().key == "comment" ? 1 : 0),
+                      {member.key, following(member.value, f0)});
     }
   }
 }
 
 }  // namespace
-
-const std::vector<NewKind>& new_kinds() {
-  const NewNumber mass{"mass", "mass", 1, "kg"},
-      frequency{"frequency", "natural frequency without friction", 50, "Hz"},
-      ratio{"damping-ratio", "damping ratio without friction, of critical damping", 0.002, "-", false, 1},
-      stiffness{"contact-stiffness-ratio", "stiffness of the contact, over that of the structure", 0.1, "-"},
-      friction{"friction", "friction coefficient", 0.3, "-"}, load{"force", "amplitude of the force", 1, "N"};
-  static const std::vector<NewKind> kinds = {
-      {"damper",
-       "a mass with a friction damper, and its best load",
-       {mass, frequency, ratio, stiffness, friction, load}},
-      {"beam",
-       "a cantilever with a friction damper, and its best load",
-       {{"length", "length", 1, "m"},
-        {"width", "width", 0.04, "m"},
-        {"height", "height, along which it bends", 0.02, "m"},
-        {"young", "Young's modulus", 2.1e11, "Pa"},
-        {"density", "density", 7850, "kg/m^3"},
-        ratio,
-        {"contact-position", "place of the contact, over the length", 0.5, "-", true, 1},
-        stiffness,
-        friction,
-        load}},
-      {"duffing",
-       "a Duffing oscillator: responses with their stability, and the backbone",
-       {mass,
-        {"frequency", "natural frequency of small motions", 1, "Hz"},
-        {"damping-ratio", "damping ratio of small motions", 0.01, "-", true, 1},
-        {"cubic-stiffness", "stiffness of the cubic spring", 500, "N/m^3", false},
-        {"force", "amplitude of the force", 0.1, "N"}}},
-      {"contact",
-       "a mass on a contact whose normal load varies, and its best load",
-       {mass, frequency, ratio, stiffness, friction, load}},
-      {"joint",
-       "a mass on a joint with microslip: responses, and damping over the amplitude",
-       {mass,
-        frequency,
-        ratio,
-        {"joint-stiffness-ratio", "stiffness of the joint, over that of the rest", 1, "-"},
-        {"slip-force", "force of macroslip", 50, "N"},
-        load}},
-      {"from-matrices",
-       "a structure of mass and stiffness matrices",
-       {{"highest-frequency", "reduce the matrices up to this frequency; required above 500 rows", NAN, "Hz"},
-        {"damping-ratio", "damping ratio of each mode, in addition to --damping", 0.005, "-", false, 1},
-        {"contact-stiffness", "stiffness of a friction damper at the row of --contact", NAN, "N/m"},
-        friction,
-        load},
-       {{"at", "row of the force: its number, from 1, or its name", "ROW"},
-        {"response", "row of the response (default: that of the force)", "ROW"},
-        {"contact", "row of a friction damper to ground (default: none)", "ROW"},
-        {"names", "names of rows, a CSV file with the columns name and row", "FILE"},
-        {"damping", "damping matrix", "C.mtx"}},
-       {"M.mtx", "K.mtx"}}};
-  return kinds;
-}
 
 NewScene new_scene(const CommandOptions& options, const scene::Catalogue& catalogue,
                    const control::Control& control) {

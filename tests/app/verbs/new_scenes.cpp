@@ -42,8 +42,9 @@ TEST_CASE("a new damper has the numbers of the command, and a certified load in 
   CHECK(damper["normal_load"].get<double>() == Approx(2 / 0.3).epsilon(1e-3));
   CHECK(has(damper["comment"], "normal_load = force/friction"));
   // 3 kappa/(2 pi) = 5.7 % beyond 47 Hz and 47 sqrt(1.12) Hz.
-  CHECK(scene["studies"][0]["from"] == 44.3);
-  CHECK(scene["studies"][0]["to"] == 52.6);
+  CHECK(scene["studies"][0]["from"] == "0.943*f0");
+  CHECK(scene["studies"][0]["to"] == "1.12*f0");
+  CHECK(scene["studies"][2]["bounds"] == Json::parse(R"([["0.05*balance", "20*balance"]])"));
   const Ended ran = run(place, {"run", "d.json"});
   CHECK(ran.exit_code == 0);
   CHECK_FALSE(has(ran.err, ", but "));
@@ -56,6 +57,30 @@ TEST_CASE("a new damper has the numbers of the command, and a certified load in 
   CHECK(best["amplitude"].get<double>() < free / 10);
   CHECK(load > 2 / 0.3);
   CHECK(load < 3 * 2 / 0.3);
+}
+
+TEST_CASE("windows and bounds of a new damper follow its force and its stiffness") {
+  const Workplace place;
+  place.write("d.json", made(place, {"damper"}).dump());
+  const auto best = [&](const std::vector<std::string>& set) {
+    std::vector<std::string> arguments = {"optimize", "d.json", "--json", "-"};
+    arguments.insert(arguments.end(), set.begin(), set.end());
+    const Ended ended = run(place, arguments);
+    CAPTURE(ended.err);
+    REQUIRE(ended.exit_code == 0);
+    return Json::parse(ended.out)["optimum"];
+  };
+  const Json plain = best({});
+  const double amplitude = plain["amplitude"], load = plain["damper.normal_load"];
+  // Without dimensions the equations stay the same: x ~ force/k, t ~ 1/f0.
+  const Json forced = best({"--set", "force.cosine=30"});
+  CHECK(forced["amplitude"].get<double>() == Approx(30 * amplitude).epsilon(1e-6));
+  CHECK(forced["damper.normal_load"].get<double>() == Approx(30 * load).epsilon(1e-3));
+  const double w = 2 * pi * 50, k = w * w, c = 2 * 0.002 * w;
+  const Json stiffer =
+      best({"--set", "k.value=" + std::to_string(16 * k), "--set", "c.value=" + std::to_string(4 * c)});
+  CHECK(stiffer["amplitude"].get<double>() == Approx(amplitude / 16).epsilon(1e-6));
+  CHECK(stiffer["frequency"].get<double>() == Approx(4 * plain["frequency"].get<double>()).epsilon(1e-4));
 }
 
 TEST_CASE("each kind of new scene runs without a doubt") {
