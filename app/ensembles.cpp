@@ -1,17 +1,21 @@
 #include "ensembles.hpp"
 
+#include "command_line/option_values.hpp"
 #include "interrupt.hpp"
 #include "output/message.hpp"
-#include "command_line/option_values.hpp"
 #include "output/progress.hpp"
 #include "output/results.hpp"
+#include "output/results_folder.hpp"
 #include "output/standard_output.hpp"
 
 #include <arcslip/ensemble/ensemble.hpp>
 #include <arcslip/output/atomic_file.hpp>
 #include <arcslip/output/figures.hpp>
+#include <arcslip/report/report.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/combinations.hpp>
+#include <arcslip/scene/study_type.hpp>
+#include <arcslip/studies/presentation/columns.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -20,6 +24,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <ostream>
 #include <thread>
 
@@ -111,10 +116,47 @@ class Reports {
   bool is_reported_ = false;
 };
 
+/// Checks that all files can be written, and that none is read or written by another name.
+void check_files(const std::string& path, const scene::Scene& scene, const CommandOptions& options) {
+  std::vector<OutputPath> places = {{"the samples", path}};
+  if (!options.csv.empty() && options.csv != "-") places.push_back({"--csv", options.csv});
+  if (!options.report.empty()) places.push_back({"--report", options.report});
+  check_places(places, sources_of(scene, options.scene));
+}
+
+/// Throws UsageError if the table would take the place of a part.
+void check_table(const std::vector<std::string>& parts, const std::string& csv) {
+  std::error_code error;
+  for (const std::string& part : parts)
+    if (std::filesystem::equivalent(part, csv, error))
+      throw UsageError("--csv " + results::visible(csv) + " is one of the parts: choose another path");
+}
+
+std::string failed_text(const ensemble::Progress& progress) {
+  if (progress.failed == 0) return {};
+  return std::to_string(progress.failed) + " of " + std::to_string(progress.all) +
+         " samples are not complete: their rows have status and reason, and the statistics are of the others";
+}
+
+/// Writes a page with the scene, the statistics as a text, and the histograms.
+void write_report(const scene::Scene& scene, const scene::Study& study, const std::string& path,
+                  const std::string& statistics, const ensemble::Progress& progress, std::ostream& out) {
+  const results::Schema schema{.format = "", .list = "ensembles", .noun = "ensemble", .tables = {}};
+  report::Report page(scene, {&study, 1});
+  page.begin(studies::header(scene), {&schema, 1});
+  page.curve({.study = study.name, .kind = std::string(study.type->name())}, 0);
+  page.end({.stop = {}, .doubt = failed_text(progress), .text = statistics});
+  page.add_figures(0, ensemble::histograms(path));
+  page.write(out);
+}
+
 /// Writes the table of samples where --csv asks for it, and the statistics to standard output.
-ExitCode write_ensemble(const std::string& path, const std::string& statistics,
-                        const CommandOptions& options) {
+ExitCode write_ensemble(const std::string& path, const std::string& statistics, const CommandOptions& options,
+                        const std::function<void(std::ostream&)>& report = {}) {
   Writing writing;
+  if (!options.report.empty() && report)
+    writing.attempt(results::visible(options.report),
+                    [&] { output::write_file(options.report, report, by_signal()); });
   StandardOutput screen;
   const auto write = [&](std::ostream& out) { ensemble::write_csv(path, out); };
   if (options.csv == "-")
@@ -129,13 +171,6 @@ ExitCode write_ensemble(const std::string& path, const std::string& statistics,
     });
   writing.attempt("standard output", [&] { screen.finish(); });
   return writing.code(ExitCode::done);
-}
-
-void tell_failed(const ensemble::Progress& progress) {
-  if (progress.failed > 0)
-    tell(
-        std::to_string(progress.failed) + " of " + std::to_string(progress.all) +
-        " samples are not complete: their rows have status and reason, and the statistics are of the others");
 }
 
 }  // namespace
@@ -157,6 +192,9 @@ void add_ensemble_options(CLI::App& verb, CommandOptions& options) {
       ->type_name("FILE");
   verb.add_option("--csv", options.csv, "write the samples as CSV to a file, or - for standard output")
       ->type_name("FILE|-");
+  verb.add_option("--report", options.report,
+                  "write statistics and histograms as a page for a browser, in one file (default: none)")
+      ->type_name("FILE");
 }
 
 void add_merge_options(CLI::App& verb, CommandOptions& options) {
@@ -174,9 +212,13 @@ void add_merge_options(CLI::App& verb, CommandOptions& options) {
 ExitCode compute_ensemble(const scene::Scene& scene, const CommandOptions& options) {
   const scene::Study& study = study_of(scene, options.ensemble.study);
   const ensemble::Part part = part_of(options.ensemble.part);
+  if (part.count > 1 && !options.report.empty())
+    throw UsageError("--report " + results::visible(options.report) +
+                     ": a part has no statistics; arcslip merge joins all parts, arcslip plot draws them");
   const std::string path = path_of(options, study, part);
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   make_folder(path);
+  check_files(path, scene, options);
   Reports reports(options);
   ensemble::Settings settings{.path = path,
                               .keep = options.ensemble.keep,
@@ -192,7 +234,7 @@ ExitCode compute_ensemble(const scene::Scene& scene, const CommandOptions& optio
   }
   reports.clear();
   const ensemble::Progress& progress = outcome.progress;
-  tell_failed(progress);
+  if (const std::string failed = failed_text(progress); !failed.empty()) tell(failed);
   if (outcome.stopped) {
     tell("interrupted: " + std::to_string(progress.done) + " of " + std::to_string(progress.all) +
          " samples are in " + path + "; run the same command to go on");
@@ -200,13 +242,20 @@ ExitCode compute_ensemble(const scene::Scene& scene, const CommandOptions& optio
   }
   if (part.count > 1 && !options.quiet)
     tell("part " + options.ensemble.part + " is done: join all parts with arcslip merge PART... --out FILE");
-  return write_ensemble(path, part.count > 1 ? "" : ensemble::add_statistics(path), options);
+  if (part.count > 1) return write_ensemble(path, "", options);
+  const std::string statistics = ensemble::add_statistics(path);
+  return write_ensemble(path, statistics, options, [&](std::ostream& out) {
+    write_report(scene, study, path, statistics, progress, out);
+  });
 }
 
 ExitCode merge_ensemble(const CommandOptions& options) {
+  check_table(options.ensemble.parts, options.csv);
+  if (!options.csv.empty() && options.csv != "-")
+    check_places({{"--out", options.out}, {"--csv", options.csv}}, {});
   make_folder(options.out);
   const ensemble::Progress progress = ensemble::merge(options.ensemble.parts, options.out, by_signal());
-  tell_failed(progress);
+  if (const std::string failed = failed_text(progress); !failed.empty()) tell(failed);
   return write_ensemble(options.out, ensemble::add_statistics(options.out), options);
 }
 

@@ -4,12 +4,12 @@
 
 #include "output/message.hpp"
 
+#include <arcslip/ensemble/ensemble.hpp>
 #include <arcslip/results/figure_data.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -113,34 +113,57 @@ std::optional<results::FigureData> figure_of(const results::Results& all, std::s
   return data;
 }
 
+/// The files of a list, by the columns that are chosen: other columns have other files.
+std::string name_of(const results::Results& all, std::size_t schema, const std::string& file,
+                    const CommandOptions& options) {
+  std::string name = file + "_plot";
+  if (!options.y.empty()) name += "_" + options.y;
+  if (!options.x.empty()) name += "_over_" + options.x;
+  name = output::file_name(name);
+  return all.schemas.size() > 1 ? name + "_" + all.schemas[schema].list : name;
+}
+
+/// Figures, and the name that their files begin with.
+using Plots = std::vector<std::pair<std::string, std::vector<results::FigureData>>>;
+
+Plots plots_of_results(const std::string& path, const CommandOptions& options) {
+  const results::Results all = read_results(path);
+  const std::string file = std::filesystem::path(path).stem().string();
+  Plots plots;
+  for (std::size_t schema = 0; schema < all.schemas.size(); ++schema)
+    if (auto data = figure_of(all, schema, options); data && !data->lines.empty())
+      plots.push_back({name_of(all, schema, file, options), {std::move(*data)}});
+  if (plots.empty())
+    throw UsageError(
+        results::visible(path) +
+        " has no table with these columns: give --x and --y, of those that arcslip show --columns "
+        "names");
+  return plots;
+}
+
+Plots plots_of_ensemble(const std::string& path, const CommandOptions& options) {
+  if (!options.x.empty() || !options.y.empty())
+    throw UsageError(results::visible(path) +
+                     " is an ensemble, whose figures are histograms without --x and --y");
+  return {{output::file_name(std::filesystem::path(path).stem().string()), ensemble::histograms(path)}};
+}
+
 }  // namespace
 
 ExitCode plot_results(const CommandOptions& options) {
-  const results::Results all = read_results(options.files[0]);
-  const std::filesystem::path file(options.files[0]);
-  const std::string folder = options.out.empty() ? file.parent_path().string() : options.out;
+  const std::string& path = options.files[0];
+  const Plots plots = is_ensemble(path) ? plots_of_ensemble(path, options) : plots_of_results(path, options);
+  const std::string folder =
+      options.out.empty() ? std::filesystem::path(path).parent_path().string() : options.out;
   if (!options.out.empty()) std::filesystem::create_directories(folder);
   Writing writing;
   std::string places;
-  for (std::size_t schema = 0; schema < all.schemas.size(); ++schema) {
-    const auto data = figure_of(all, schema, options);
-    if (!data || data->lines.empty()) continue;
-    std::string name = file.stem().string() + "_plot";
-    if (!options.y.empty()) name += "_" + options.y;
-    if (!options.x.empty()) name += "_over_" + options.x;
-    name = output::file_name(name);  // other columns have other files
-    if (all.schemas.size() > 1) name += "_" + all.schemas[schema].list;
+  for (const auto& [name, data] : plots) {
     const DrawnFigures drawn =
-        FiguresOfStudy({folder.empty() ? "." : folder, name}, {*data}, options.figures, writing)
-            .finish(writing);
+        FiguresOfStudy({folder.empty() ? "." : folder, name}, data, options.figures, writing).finish(writing);
     if (!drawn.problem.empty()) tell(drawn.problem);
-    for (const std::string& path : drawn.paths) places += results::visible(path) + "\n";
+    for (const std::string& each : drawn.paths) places += results::visible(each) + "\n";
   }
-  if (places.empty())
-    throw UsageError(
-        results::visible(options.files[0]) +
-        " has no table with these columns: give --x and --y, of those that arcslip show --columns "
-        "names");
   StandardOutput screen;
   screen.write_lines([&](std::ostream& out) { out << places; });
   screen.finish();

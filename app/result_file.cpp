@@ -12,7 +12,9 @@
 #include <arcslip/scene/scene.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <ostream>
@@ -292,7 +294,19 @@ void add_list(const std::string& list, const Node::List& objects, const Node::Ob
 
 }  // namespace
 
+bool is_ensemble(const std::string& path) {
+  constexpr std::string_view begins = "SQLite format 3";
+  std::array<char, begins.size()> head{};
+  std::ifstream in(path, std::ios::binary);
+  return in.read(head.data(), head.size()) && std::string_view(head.data(), head.size()) == begins;
+}
+
 results::Results read_results(const std::string& path) {
+  if (is_ensemble(path))
+    throw UsageError(
+        results::visible(path) +
+        " is the file of an ensemble: arcslip plot draws its histograms, and arcslip ensemble with "
+        "--csv writes its samples");
   const auto refuse = [&](const std::string& why) {
     throw UsageError(results::visible(path) + " holds no results of arcslip" + why +
                      ": give a JSON file that --json or a folder of results has");

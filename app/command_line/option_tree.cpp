@@ -208,12 +208,15 @@ void add_tolerance(CLI::App& verb, Texts& texts) {
 void add_result_verbs(OptionTree& tree) {
   CommandOptions& options = tree.options;
   CLI::App* show = tree.app.add_subcommand(show_verb, "print the results of a JSON file as tables");
-  CLI::App* plot = tree.app.add_subcommand(plot_verb, "draw the results of a JSON file as figures");
+  CLI::App* plot = tree.app.add_subcommand(
+      plot_verb, "draw the results of a JSON file, or the histograms of an ensemble, as figures");
   CLI::App* compare = tree.app.add_subcommand(
       compare_verb,
       "print what differs in the results of two JSON files, and end with exit code 4 if any does");
-  for (CLI::App* verb : {show, plot})
-    verb->add_option("FILE", options.files[0], "results as JSON")->required()->type_name("");
+  show->add_option("FILE", options.files[0], "results as JSON")->required()->type_name("");
+  plot->add_option("FILE", options.files[0], "results as JSON, or the file of an ensemble")
+      ->required()
+      ->type_name("");
   compare->add_option("A", options.files[0], "results as JSON")->required()->type_name("");
   compare->add_option("B", options.files[1], "results as JSON")->required()->type_name("");
   add_columns_and_events(*show, tree.texts);

@@ -7,6 +7,7 @@
 
 #include <arcslip/control/error.hpp>
 #include <arcslip/control/run_control.hpp>
+#include <arcslip/results/figure_data.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <functional>
@@ -85,6 +86,10 @@ Progress merge(const std::vector<std::string>& parts, const std::string& path,
 /// Computes the statistics of the quantities, as tables of the file: `statistics`, `histograms`,
 /// `correlations`. Returns them as a text.
 std::string add_statistics(const std::string& path);
+
+/// Returns the histograms of the quantities that vary, made by add_statistics(), as figures, with bands that
+/// have 90 and 50 % of the samples. Throws FileFault where there are none.
+std::vector<results::FigureData> histograms(const std::string& path);
 
 /// Writes the table of samples as CSV.
 void write_csv(const std::string& path, std::ostream& out);

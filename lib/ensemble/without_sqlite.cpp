@@ -32,6 +32,10 @@ std::string add_statistics(const std::string&) {
   refuse();
 }
 
+std::vector<results::FigureData> histograms(const std::string&) {
+  refuse();
+}
+
 void write_csv(const std::string&, std::ostream&) {
   refuse();
 }

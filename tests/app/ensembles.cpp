@@ -202,7 +202,8 @@ TEST_CASE("a file is not continued by another scene, study or choice of quantiti
   csv_of(place, {"ensemble", "scene.json", "--out", "a.sqlite"});
   place.write("other.json", scene_with(distributions, 0.6));
   CHECK_THAT(refusal(place, {"ensemble", "other.json", "--out", "a.sqlite"}),
-             Contains("a.sqlite: the scene has changed since, or an option that stands for one of its keys: /elements/0/friction_coefficient was 0.5 (a "
+             Contains("a.sqlite: the scene has changed since, or an option that stands for one of its keys: "
+                      "/elements/0/friction_coefficient was 0.5 (a "
                       "number), is 0.6 (a "
                       "number)"));
   CHECK_THAT(refusal(place, {"ensemble", "scene.json", "--set", "m.value=2", "--out", "a.sqlite"}),
@@ -287,8 +288,10 @@ TEST_CASE("a sample that fails is a row with its reason") {
   scene.insert(scene.find(R"({"name": "f")"),
                R"({"name": "weight", "at": "a", "harmonic": 0, "cosine": 1}, )");
   place.write("scene.json", scene);
-  const Ended ended = run(place, {"ensemble", "scene.json", "--csv", "a.csv", "--quiet"});
+  const Ended ended =
+      run(place, {"ensemble", "scene.json", "--csv", "a.csv", "--report", "page.html", "--quiet"});
   CHECK(ended.exit_code == 0);
+  CHECK_THAT(place.read("page.html"), Contains("1 of 3 samples are not complete"));
   CHECK_THAT(ended.err, Contains("1 of 3 samples are not complete: their rows have status and reason"));
   const std::string csv = place.read("a.csv");
   CHECK_THAT(
@@ -338,6 +341,89 @@ TEST_CASE("of studies without events the facts of a result are quantities") {
         4 * 0.5 * load * std::stod(rows[3].at("amplitude (m)")));
   CHECK_THAT(refusal(place, {"ensemble", "scene.json", "--keep", "amplitud", "--out", "b.sqlite"}),
              Contains("did you mean \"amplitude\"?"));
+}
+
+TEST_CASE("the histogram of a quantity has all samples, and bands between their quantiles") {
+  const Workplace place;
+  place.write("scene.json", scene_with(distributions, 0));
+  std::vector<double> amplitudes;
+  for (const Row& row :
+       rows_of(csv_of(place, {"ensemble", "scene.json", "--out", "all.sqlite", "--keep", "amplitude"})))
+    amplitudes.push_back(std::stod(row.at("amplitude (m)")));
+  const Ended ended = run(place, {"plot", "all.sqlite", "--figures", "svg", "--out", "figures"});
+  CAPTURE(ended.err);
+  REQUIRE(ended.exit_code == 0);
+  std::istringstream lines(place.read("figures/all_amplitude.dat"));
+  std::vector<std::pair<double, double>> outline;
+  for (std::string line; std::getline(lines, line) && (outline.empty() || !line.empty());)
+    if (double x = 0, y = 0; std::sscanf(line.c_str(), "%lf %lf", &x, &y) == 2) outline.emplace_back(x, y);
+  REQUIRE(outline.size() == 42);  // two for each of 20 bins, and the ends on the axis
+  CHECK(outline.front().second == 0);
+  CHECK(outline.back().second == 0);
+  const auto count_in = [&](double lower, double upper) {
+    const bool is_last = upper == outline.back().first;
+    double count = 0;
+    for (const double a : amplitudes) count += a >= lower && (a < upper || is_last);
+    return count;
+  };
+  for (std::size_t i = 1; i + 1 < outline.size(); i += 2) {
+    CHECK(outline[i].second == outline[i + 1].second);
+    CHECK(outline[i].second == count_in(outline[i].first, outline[i + 1].first));
+  }
+  std::sort(amplitudes.begin(), amplitudes.end());
+  const std::string data = place.read("figures/all_amplitude.dat"), words = "5 to 95 % of the samples\n";
+  REQUIRE(has(data, words));
+  double lower = 0, upper = 0;
+  REQUIRE(std::sscanf(data.c_str() + data.find(words) + words.size(), "%lf %*f %*f %lf", &lower, &upper) ==
+          2);
+  // Of 200 values the 5 % quantile is between the tenth and the eleventh, at 0.05 * 199 = 9.95.
+  CHECK_THAT(lower, WithinRel(std::lerp(amplitudes[9], amplitudes[10], 0.95), 1e-12));
+  CHECK_THAT(upper, WithinRel(std::lerp(amplitudes[189], amplitudes[190], 0.05), 1e-12));
+  const std::string script = place.read("figures/all_amplitude.gp");
+  CHECK(has(script, "5 to 95 % of the samples"));
+  CHECK(has(script, "amplitude (mm)"));
+  CHECK(has(refusal(place, {"plot", "all.sqlite", "--x", "frequency"}), "is an ensemble"));
+  CHECK(has(refusal(place, {"show", "all.sqlite"}), "all.sqlite is the file of an ensemble: arcslip plot"));
+  run(place, {"ensemble", "scene.json", "--part", "1/2", "--out", "part.sqlite"});
+  CHECK(has(refusal(place, {"ensemble", "scene.json", "--part", "2/2", "--report", "page.html"}),
+            "a part has no statistics"));
+  CHECK(has(refusal(place, {"plot", "part.sqlite"}), "found no statistics"));
+}
+
+TEST_CASE("the table and the page of an ensemble take the place of no other file") {
+  const Workplace place;
+  const std::string scene = scene_with(distributions, 0);
+  place.write("scene.json", scene);
+  for (const std::string option : {"--csv", "--report"}) {
+    CHECK(has(refusal(place, {"ensemble", "scene.json", "--out", "a.sqlite", option, "scene.json"}),
+              "scene.json is the scene file itself"));
+    CHECK(has(refusal(place, {"ensemble", "scene.json", "--out", "a.sqlite", option, "./a.sqlite"}),
+              "the samples and " + option + " both go to ./a.sqlite"));
+  }
+  CHECK(has(refusal(place, {"ensemble", "scene.json", "--csv", "a.txt", "--report", "a.txt"}),
+            "--csv and --report both go to a.txt"));
+  CHECK(place.read("scene.json") == scene);
+  for (const std::string part : {"1", "2"})
+    run(place, {"ensemble", "scene.json", "--part", part + "/2", "--out", part + ".sqlite"});
+  const std::string before = place.read("2.sqlite");
+  CHECK(has(refusal(place, {"merge", "1.sqlite", "2.sqlite", "--out", "all.sqlite", "--csv", "./2.sqlite"}),
+            "--csv ./2.sqlite is one of the parts"));
+  CHECK(has(refusal(place, {"merge", "1.sqlite", "2.sqlite", "--out", "all.txt", "--csv", "all.txt"}),
+            "--out and --csv both go to all.txt"));
+  CHECK(place.read("2.sqlite") == before);
+}
+
+TEST_CASE("the page of an ensemble has its statistics, histograms and doubts") {
+  const Workplace place;
+  place.write("scene.json", scene_with(distributions, 0));
+  const Ended whole = run(place, {"ensemble", "scene.json", "--out", "all.sqlite", "--keep", "amplitude",
+                                  "--report", "all.html", "--quiet"});
+  REQUIRE(whole.exit_code == 0);
+  const std::string page = place.read("all.html");
+  CHECK(has(page, "No doubts"));
+  CHECK(has(page, whole.out.substr(0, whole.out.find('\n'))));  // titles of the statistics
+  CHECK(has(page, "samples over amplitude"));
+  CHECK(has(page, "25 to 75 %"));
 }
 
 TEST_CASE("the example of an array of parts has the rows of one run") {
