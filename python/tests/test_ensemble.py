@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 
 import arcslip
+from arcslip.ensembles.ensemble import first_of_its_kind
 
 DISTRIBUTIONS = {
     "distributions": {"k.value": {"uniform": [9e3, 1.1e4]}, "damper.normal_load": {"normal": [4, 0.4]}},
@@ -48,6 +49,13 @@ def test_peaks_of_samples_are_those_of_the_closed_form(linear: arcslip.Scene) ->
     assert found.units["frequency"] == "Hz"
     assert set(found.status) == {"complete"}
     assert found.results.dtype == np.int64
+
+
+def test_worker_processes_keep_the_scene_that_they_have_reduced(linear: arcslip.Scene) -> None:
+    first = first_of_its_kind(linear)
+    assert first_of_its_kind(pickle.loads(pickle.dumps(linear))) is first
+    other = linear.replace({"k.value": 9e3})
+    assert first_of_its_kind(other) is other
 
 
 def test_threads_processes_and_the_command_give_the_same(

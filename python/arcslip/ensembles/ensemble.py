@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 import shutil
@@ -177,12 +178,18 @@ def _with_samples(scene: Scene, samples: Any, study: str | None) -> tuple[_core.
     return core.with_study(core.studies()[index][1], index, text)
 
 
+@functools.lru_cache(maxsize=1)
+def first_of_its_kind(scene: Scene) -> Scene:
+    """Return the first scene of this content that a process has met, which has its structure reduced."""
+    return scene
+
+
 def compute_chunk(scene: Scene, index: int, keep: str, samples: tuple[int, int]) -> tuple[dict[str, list[Any]], float]:
     """Compute some samples of a study. Return the rows of each table, and the time in seconds."""
     begin = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "chunk.sqlite"
-        _, _, error = _core.run_ensemble(scene._data, index, keep, str(path), samples, 1, None)
+        _, _, error = _core.run_ensemble(first_of_its_kind(scene)._data, index, keep, str(path), samples, 1, None)
         if error is not None:
             raise error
         with closing(connected(path)) as file:
