@@ -30,6 +30,8 @@ constexpr double undamped = 1e-2;          // smaller corrections are not damped
 constexpr double undamped_divergence = 2;  // of such corrections, from one to the next
 constexpr double linear_share = 1e-2;      // of a small Newton correction in the next one: not quadratic
 constexpr double surely_within = 1e-13;    // smaller corrections are not looked at for kinks
+constexpr double expected_share = 1e-3;    // of the tolerance: an error that may be expected to remain
+constexpr double largest_accepted = 1e-7;  // correction beyond which no error is expected to remain
 constexpr double smallest_relevant_state = 1e-6;      // in scales: below this, corrections are absolute
 constexpr double smallest_relevant_parameter = 1e-3;  // of its scale: below, corrections of p are absolute
 }  // namespace
@@ -49,6 +51,7 @@ Corrector::Corrector(const Problem& problem, Vector p, int free, const NewtonOpt
       next_(problem.size() + 1),
       trial_(problem.size() + 1),
       across_(problem.size() + 1),
+      from_factors_(Vector::Zero(problem.size() + 1)),
       metric_(problem.size()),
       free_(free),
       parameter_scale_(problem.parameters()[static_cast<std::size_t>(free)].change()) {
@@ -242,9 +245,21 @@ Vector Corrector::generic_direction(int k) const {
   return x;
 }
 
+// Whether Newton's method leaves an error far below the tolerance from a point with this one, by the
+// contraction of the corrections with factors at from_factors_. Where a small unknown bends F and a large one
+// makes the distance, only that of the unknowns that are corrected counts. dv_: a correction of the size
+// `now`.
+bool Corrector::leaves_little(double error, double contraction, double now) const {
+  if (accept_ != Accept::expected_error || !(error <= largest_accepted)) return false;
+  const double square = (dv_.array().square() * weights_.array()).sum();
+  const double away = (dv_.array() * from_factors_.array()).abs().matrix().dot(weights_);
+  return contraction * error * (error / now) * square <= expected_share * options_.tolerance * away;
+}
+
 // Chord steps with the present factors, until one linearization is expected to complete the correction. False
 // if they do not contract; v is then unchanged.
 bool Corrector::chord(Vector& v, Correction& result) {
+  if (memory_.factors.v.size() == v.size()) from_factors_ = v - memory_.factors.v;
   if (!evaluate(v, Needs::residual)) {
     result.evaluated = false;
     return false;
@@ -256,7 +271,9 @@ bool Corrector::chord(Vector& v, Correction& result) {
   v += dv_;
   ++result.iterations;
   const int longest = longest_chord(evaluator_->jacobian());
-  for (int k = 1; k < longest && now * chord_safety_ * memory_.contraction > options_.tolerance; ++k) {
+  for (int k = 1; k < longest; ++k) {
+    const double expected = now * chord_safety_ * memory_.contraction;
+    if (expected <= options_.tolerance || leaves_little(expected, memory_.contraction, now)) break;
     if (!evaluate(v, Needs::residual)) {
       result.evaluated = false;
       return false;
@@ -266,7 +283,10 @@ bool Corrector::chord(Vector& v, Correction& result) {
     const double ratio = next / now;
     if (k == 1) result.contraction = ratio;
     if (!(ratio <= options_.chord_contraction)) {
-      if (!(ratio <= 1)) v -= dv_;
+      if (!(ratio <= 1)) {
+        v -= dv_;
+        from_factors_.setZero();  // that contraction says nothing
+      }
       break;
     }
     v += next_;
@@ -285,6 +305,12 @@ double Corrector::distance_from_branch(const Vector& v) {
   return std::sqrt(dot(dv_, dv_));
 }
 
+double Corrector::correction_from(const Vector& v) {
+  if (!evaluate(v, Needs::residual)) return std::numeric_limits<double>::quiet_NaN();
+  solve(dv_);
+  return size(dv_, v);
+}
+
 // The first of the points v + dv, v + dv / 2, ... that passes the natural test becomes trial_. False: none.
 bool Corrector::damp(const Vector& v, double now) {
   for (double damping = 1; damping >= smallest_damping; damping /= 2) {
@@ -297,21 +323,25 @@ bool Corrector::damp(const Vector& v, double now) {
   return false;
 }
 
-Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors) {
-  Correction result;
-  if (keep_factors && options_.chord && problem_.chord_pays() && !chord(v, result) && !result.evaluated)
-    return result;
-  return newton(v, row, options_.iterations, Damping::natural, result);
+Correction Corrector::correct(Vector& v, const Vector& row, bool keep_factors, Accept accept) {
+  const bool is_relative = std::abs(v[v.size() - 1]) >= smallest_relevant_parameter * parameter_scale_;
+  accept_ = problem_.smooth() && is_relative ? accept : Accept::last_correction;
+  NewtonRun run{v, row, true, {}, 0};
+  from_factors_.setZero();
+  if (keep_factors && options_.chord && problem_.chord_pays() && !chord(v, run.result) &&
+      !run.result.evaluated)
+    return run.result;
+  run.before = run.result.last;
+  return newton(run, options_.iterations);
 }
 
 Correction Corrector::newton(Vector& v, const Vector& row, int iterations, Damping damping) {
-  return newton(v, row, iterations, damping, {});
+  accept_ = Accept::last_correction;
+  NewtonRun run{v, row, damping == Damping::natural, {}, 0};
+  return newton(run, iterations);
 }
 
-// result: that of the chord steps before, if any.
-Correction Corrector::newton(Vector& v, const Vector& row, int iterations, Damping damping,
-                             Correction result) {
-  NewtonRun run{v, row, damping == Damping::natural, result, result.last};
+Correction Corrector::newton(NewtonRun& run, int iterations) {
   for (int k = 0; k < iterations; ++k, ++run.result.iterations) {
     const Newton state = newton_step(run, k);
     if (state == Newton::converged) return run.result;
@@ -337,7 +367,7 @@ Corrector::Newton Corrector::newton_step(NewtonRun& run, int k) {
   note_size(run, now, k);
   const bool cycles = this->cycles(run);
   if (now <= linear_share * before) result.linear = false;
-  if (now <= options_.tolerance || cycles) return take_last(run, !cycles);
+  if (is_complete(run) || cycles) return take_last(run, !cycles);
   if (!std::isfinite(now)) return Newton::failed;
   const bool was_small = k > 0 && before > 0 && before < undamped;
   result.linear = was_small && now > linear_share * before;
@@ -345,7 +375,16 @@ Corrector::Newton Corrector::newton_step(NewtonRun& run, int k) {
   if (run.is_damped && was_small && now > undamped_divergence * before) return Newton::failed;
   run.v += dv_;
   run.before = now;
+  from_factors_ = dv_;
   return Newton::goes_on;
+}
+
+// By the last correction, or by the error that is expected to remain.
+bool Corrector::is_complete(NewtonRun& run) const {
+  const double now = run.result.last, before = run.before;
+  run.result.expected = now > options_.tolerance && before > 0 && leaves_little(now, now / before, now);
+  if (before > 0) run.result.last_contraction = now / before;
+  return now <= options_.tolerance || run.result.expected;
 }
 
 void Corrector::note_size(NewtonRun& run, double now, int k) {
@@ -371,7 +410,8 @@ bool Corrector::cycles(NewtonRun& run) {
 // Takes a correction within the tolerance: the last one, unless it crosses a kink, beyond which the equations
 // are others and the branch may be far from a solution of these.
 Corrector::Newton Corrector::take_last(NewtonRun& run, bool may_cross) {
-  may_cross = may_cross && run.result.last > surely_within && !run.crossed && problem_.cheap_residual();
+  may_cross = may_cross && run.result.last > surely_within && !run.crossed && !problem_.smooth() &&
+              problem_.cheap_residual();
   const std::optional<std::uint64_t> piece = may_cross ? piece_of_residual() : std::nullopt;
   run.v += dv_;
   p_[free_] = run.v[run.v.size() - 1];

@@ -7,6 +7,11 @@
 // those of the branch there. If not, Newton's method continues from there. So a well predicted point costs
 // one factorization.
 //
+// A point of a branch needs no more than its tolerance. Where F is smooth, the contraction c of the
+// corrections with factors at a distance D from the solution grows as D, so that after a correction d with
+// new factors an error of c d^2 / D remains: Accept::expected_error takes v + dv where that is far below the
+// tolerance. The corrections that it saves are the last chord steps, whose error the new factors remove.
+//
 // Where that last correction leaves the smooth piece of F, the equations beyond are others: Newton's method
 // continues once more, and v + dv stays the solution if that leads nowhere. This is tested where residuals
 // are cheap and corrections above 1e-13.
@@ -36,8 +41,10 @@ struct Correction {
   bool evaluated = true;  // false: the problem could not be evaluated; see failure()
   bool singular = false;  // singular matrix, or derivatives that cannot be evaluated
   int iterations = 0;
-  double first = 0, last = 0;  // size of the first and of the last correction
-  double contraction = 0;      // ratio of the second to the first
+  double first = 0, last = 0;   // size of the first and of the last correction
+  double contraction = 0;       // ratio of the second to the first
+  double last_contraction = 0;  // of the last to the one before
+  bool expected = false;        // complete by the error that is expected to remain: Accept::expected_error
   /// Newton's method converged linearly only: a small correction was followed by one not much smaller, or by
   /// too many.
   bool linear = false;
@@ -59,6 +66,10 @@ struct FactorMemory {
 /// Of large corrections: the natural test, or none.
 enum class Damping { natural, none };
 
+/// When a correction is complete: with the last one within the tolerance, or, of smooth problems, also with
+/// the error that is expected to remain far below it.
+enum class Accept { last_correction, expected_error };
+
 /// Corrector with its evaluator, factors and buffers. correct() and linearize() do not allocate.
 class Corrector {
  public:
@@ -70,7 +81,8 @@ class Corrector {
 
   /// v: n + 1, the prediction, becomes the solution; the factors become those there. row: n + 1.
   /// keep_factors: the present factors are those of a nearby point with a similar row, and are tried first.
-  Correction correct(Vector& v, const Vector& row, bool keep_factors);
+  Correction correct(Vector& v, const Vector& row, bool keep_factors,
+                     Accept accept = Accept::last_correction);
 
   /// Newton's method alone, without chord steps, with at most so many iterations. It ends after
   /// NewtonOptions::iterations of them where it converges linearly only.
@@ -79,6 +91,9 @@ class Corrector {
   /// |B^-1 F(v)| in scales with the present factors: the distance of v from the branch, to first order. NaN
   /// if F cannot be evaluated.
   double distance_from_branch(const Vector& v);
+
+  /// The size of the correction from v with the present factors. NaN if F cannot be evaluated.
+  double correction_from(const Vector& v);
 
   /// Evaluates F and J at v and factorizes with the given border row. False: singular or not evaluated.
   bool linearize(const Vector& v, const Vector& row);
@@ -135,6 +150,7 @@ class Corrector {
   void solve(Vector& dv) const;           // dv = -B^-1 (F, 0)
   void back_substitute(Vector& x) const;  // x = B^-1 x; not finite where the linear solver throws
   bool chord(Vector& v, Correction& result);
+  bool leaves_little(double error, double contraction, double now) const;
   // What Newton's method carries from one iteration to the next.
   struct NewtonRun {
     Vector& v;
@@ -147,8 +163,9 @@ class Corrector {
   };
   enum class Newton { goes_on, converged, failed };
 
-  Correction newton(Vector& v, const Vector& row, int iterations, Damping damping, Correction result);
+  Correction newton(NewtonRun& run, int iterations);
   Newton newton_step(NewtonRun& run, int k);
+  bool is_complete(NewtonRun& run) const;
   void note_size(NewtonRun& run, double now, int k);
   bool cycles(NewtonRun& run);
   Newton take_last(NewtonRun& run, bool may_cross);
@@ -164,10 +181,12 @@ class Corrector {
   std::unique_ptr<LinearSolver> solver_;
   Borders borders_;
   Vector p_, weights_, F_p_, dv_, next_, trial_, across_;
+  Vector from_factors_;    // to the solution, of the factors of the correction before; 0: not known
   mutable Vector metric_;  // M x of the last product
   bool has_metric_;
   mutable std::string failure_;
   int free_;
+  Accept accept_ = Accept::last_correction;
   double chord_safety_ = 1;
   double parameter_scale_;
   FactorMemory memory_;

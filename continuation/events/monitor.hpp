@@ -14,7 +14,8 @@
 namespace arcslip::continuation {
 
 /// An accepted solution with everything computed for it. `at` and `bordered`, the factors of [J F_p; r^T],
-/// belong to the start of the last correction, within the corrector's tolerance of (u, p). For an observer,
+/// belong to the start of the last correction, within the corrector's tolerance of (u, p), or within 1e-7
+/// where a smooth problem allows that (NewtonOptions::tolerance); at an event to (u, p). For an observer,
 /// `at` is at (u, p) itself. At a branch point, whose own matrix may be singular to the last bit, `bordered`
 /// belongs to the next point of the branch.
 struct Accepted {

@@ -223,6 +223,11 @@ class Doubt {
     return agrees();
   }
 
+  // The middle of the finest three steps that are judged.
+  std::size_t finest_middle(bool is_interior) const {
+    return is_interior && here_->by_differences().jacobian ? finer - 2 : finer - 1;
+  }
+
   // only_changing: rows that hardly change are not judged.
   Verdict judge(const Vector& d, bool only_changing = false) {
     multiply(d);
@@ -246,8 +251,9 @@ class Doubt {
     }
     Verdict worst;
     double largest = largest_jacobian_error;
-    // Finer steps alone would blame a J that is itself computed by differences, at an edge of the domain.
-    for (std::size_t k = finer - 1; k + 1 < looks.size(); ++k) {
+    // Finer steps alone would blame a J that is itself computed by differences, at an edge of the domain; in
+    // its interior they find a kink that is closer than the step of these.
+    for (std::size_t k = finest_middle(looks[finer].usable); k + 1 < looks.size(); ++k) {
       const Look &below = looks[k - 1], &now = looks[k], &above = looks[k + 1];
       if (!below.usable || !now.usable || !above.usable) continue;
       for (Eigen::Index i = 0; i < n_; ++i) {

@@ -14,7 +14,8 @@ namespace arcslip::continuation {
 
 /// Newton's method in the plane through the prediction, normal to the last tangent (Keller 1977).
 struct NewtonOptions {
-  double tolerance = 1e-9;       // of the last correction, relative to |u| in scales; the error is its square
+  double tolerance = 1e-9;       // of the last correction, relative to |u| in scales; the error is its square,
+                                 // or, at points of a smooth branch, is expected below 1e-3 of the tolerance
   double rounding_level = 1e-7;  // corrections that stagnate below are accepted as rounding; >= tolerance
   int iterations = 8;            // maximum
   int start_iterations = 30;     // maximum from a start without a tangent, damped, and once more undamped

@@ -149,6 +149,10 @@ class Problem {
   /// Whether chord steps pay: not where J comes with F at little more than the cost of F.
   virtual bool chord_pays() const { return cheap_residual(); }
 
+  /// Whether F is smooth wherever it is defined, so that Evaluator::piece() never changes: then corrections
+  /// are not tested for kinks, and points are accepted by the error that is expected to remain.
+  virtual bool smooth() const { return false; }
+
   /// A problem made of another one, whose derivatives are what its own are made of: the other one, with the
   /// place that belongs to a place of this one. Null: none.
   virtual const Problem* made_of(PlaceOfProblem& place) const {

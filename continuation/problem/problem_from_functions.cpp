@@ -252,6 +252,7 @@ class FunctionProblem final : public Problem {
   std::unique_ptr<Evaluator> evaluator() const override {
     return std::make_unique<FunctionEvaluator>(f_, parameters_);
   }
+  bool smooth() const override { return !f_->piece && !f_->choosing.residual; }
   std::shared_ptr<const Problem> with_scale(int k, double scale) const override {
     auto parameters = std::make_shared<std::vector<Parameter>>(*parameters_);
     (*parameters)[static_cast<std::size_t>(k)].scale = scale;

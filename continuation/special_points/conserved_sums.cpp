@@ -163,6 +163,7 @@ class ClosedProblem final : public Problem {
   std::unique_ptr<Evaluator> evaluator() const override { return std::make_unique<ClosedEvaluator>(of_); }
   bool cheap_residual() const override { return of_->problem->cheap_residual(); }
   bool chord_pays() const override { return of_->problem->chord_pays(); }
+  bool smooth() const override { return of_->problem->smooth(); }
   std::unique_ptr<LinearSolver> linear_solver() const override { return of_->problem->linear_solver(); }
   std::shared_ptr<const Problem> with_scale(int k, double scale) const override {
     auto scaled = std::make_shared<SumsOfProblem>(*of_);

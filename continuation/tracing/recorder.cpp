@@ -33,13 +33,13 @@ void Recorder::keep(const CurvePoint& place, const Correction& correction) {
   ++s_.branch.counts.points;
 }
 
-void Recorder::add_spectrum() {
+void Recorder::add_spectrum(bool is_event) {
   if (!spectra_) return;
   const StabilityOptions& of = *options_.stability;
   const bool everywhere = of.at == SpectrumAt::every_point ||
                           (of.at == SpectrumAt::automatic && s_.here.v.size() - 1 <= of.every_point);
   const std::size_t events = s_.branch.events.size();
-  if (!everywhere && s_.branch.points.size() > 1 && events == events_before_) return;
+  if (!everywhere && !is_event && s_.branch.points.size() > 1 && events == events_before_) return;
   events_before_ = events;
   try {
     s_.branch.points.back().spectrum = spectra_->at(main_.evaluator().jacobian());
@@ -131,9 +131,9 @@ const Event* Recorder::add(Event&& event) {
 }
 
 // For the observer, the evaluator moves by the last correction onto the point itself.
-bool Recorder::show_last_point() {
+bool Recorder::show_last_point(bool is_there) {
   if (!observer_) return true;
-  main_.move_to(s_.here.v);
+  if (!is_there) main_.move_to(s_.here.v);
   return observer_(accepted(main_, s_.here), nullptr);
 }
 

@@ -33,8 +33,8 @@ class Recorder {
   /// A point of the branch.
   void keep(const CurvePoint& place, const Correction& correction);
 
-  /// The spectrum of the last point, for which the corrector has J, where it is to have one.
-  void add_spectrum();
+  /// The spectrum of the last point, for which the corrector has J, where it is to have one, as at an event.
+  void add_spectrum(bool is_event = false);
 
   /// Where a monitor is NaN, its zeros are missed: a warning of the branch, once for each monitor.
   void warn_of_undefined(const CurvePoint& place);
@@ -46,8 +46,10 @@ class Recorder {
   /// The first terminal event, if one was met: the branch ends there.
   const std::optional<CurvePoint>& terminal() const { return terminal_; }
 
-  /// The last point to the observer. False: it said stop.
-  bool show_last_point();
+  bool has_observer() const { return static_cast<bool>(observer_); }
+
+  /// The last point to the observer. is_there: the evaluator is there already. False: it said stop.
+  bool show_last_point(bool is_there);
 
  private:
   bool pass(const CurvePoint& from, const PassedKink& corner);

@@ -128,6 +128,7 @@ class ScaledProblem final : public Problem {
   std::unique_ptr<Evaluator> evaluator() const override { return problem_->evaluator(); }
   bool cheap_residual() const override { return problem_->cheap_residual(); }
   bool chord_pays() const override { return problem_->chord_pays(); }
+  bool smooth() const override { return problem_->smooth(); }
   const Problem* made_of(PlaceOfProblem& place) const override { return problem_->made_of(place); }
   std::unique_ptr<LinearSolver> linear_solver() const override { return problem_->linear_solver(); }
 

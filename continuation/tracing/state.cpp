@@ -205,6 +205,7 @@ void fields_of_state(auto& visit, auto& x) {
     visit("factors", x.factors);
   }
   if (visit.holds("curve_error")) visit("curve_error", x.curve_error);
+  if (visit.holds("expected")) visit("expected", x.expected);
   if (visit.holds("transverse")) visit("transverse", x.transverse);
 }
 

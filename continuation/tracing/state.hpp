@@ -51,8 +51,9 @@ struct State {
   int slow = 0;                 // number of slowly converging corrections
   std::string jacobian_doubt;   // the wrong entry of J
   double jacobian_error = 0;    // its relative error
-  bool factors_fit = false;     // the last factors can be used for the next correction
-  FactorMemory factors;         // when the trace was saved
+  long expected = 0;         // points accepted by their expected error; -1: none, since one had a larger one
+  bool factors_fit = false;  // the last factors can be used for the next correction
+  FactorMemory factors;      // when the trace was saved
 };
 
 /// As JSON ("arcslip-state-1"), with numbers exact to the last bit.

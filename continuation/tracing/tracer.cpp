@@ -22,6 +22,9 @@ constexpr double kink_turn = 0.7, kink_step = 0.25;
 constexpr double endless_tail = 1e-12;  // of the parameter's scale: end this close to an unreached bound
 constexpr double tail_before = 1e-9;    // with its last point this close
 constexpr double been_away = 3;  // roundings of the distance from the start: closer, it has not returned
+constexpr long first_looked_at = 3, each_looked_at = 16;  // of points accepted by an expected error
+constexpr double large_contraction = 0.1;
+constexpr double unusual = 2;            // times the contraction at the last point
 constexpr double singular_bound = 1e-6;  // relative to p: a singular bound this close is reached
 
 // Both tangents point the same way in p, but p changed the other way: another branch, or two folds in
@@ -44,6 +47,8 @@ bool Tracer::Impl::step() try {
         return !s_.ended;
       case Outcome::ended:
         return false;
+      case Outcome::again:
+        break;
       case Outcome::unresolved:
         count_rejection();
         s_.step *= control_.share_after_unresolved(trial_);
@@ -77,6 +82,11 @@ Tracer::Impl::Outcome Tracer::Impl::attempt() {
     return refuse(Rejected::curve, trial_.curve_error, 1, Outcome::unresolved);
   if (!interpolation_.resolves_quantities(trial_))
     return refuse(Rejected::quantity, 0, 0, Outcome::unresolved);
+  if (!is_as_expected()) {
+    if (std::isnan(trial_.error)) return refuse(Rejected::not_evaluated, trial_.error, 0);
+    jacobian_.suspect(trial_.end.v);
+    return Outcome::again;
+  }
   return take(trial_.kink ? s_.turn.step * kink_step : control_.after(trial_));
 }
 
@@ -85,7 +95,10 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::correct() {
   CurvePoint& end = trial_.end;
   control_.predict(end.v);
   main_.border_row(s_.here.tangent, row_);
-  trial_.correction = main_.correct(end.v, row_, s_.factors_fit);
+  trial_.usual_contraction = main_.memory().contraction;
+  trial_.correction =
+      main_.correct(end.v, row_, s_.factors_fit,
+                    s_.expected < 0 || options_.stability ? Accept::last_correction : Accept::expected_error);
   const Correction& correction = trial_.correction;
   trial_.evaluated = correction.evaluated && main_.failure().empty();
   trial_.failure = main_.failure();
@@ -231,6 +244,26 @@ void Tracer::Impl::divide() {
   trial_.corners = std::move(all);
 }
 
+// Whether the error of a point that was accepted by an expected one is within the tolerance. With a wrong
+// Jacobian, or at a kink that F does not declare, corrections contract less than expected, and less than
+// before. Looked at are the first points, a sample, and those with such a contraction; and all of them where
+// an observer wants F there.
+bool Tracer::Impl::is_as_expected() {
+  if (!trial_.correction.expected) return true;
+  const double contraction = trial_.correction.last_contraction;
+  trial_.is_looked_at = record_.has_observer() || s_.expected < first_looked_at ||
+                        s_.expected % each_looked_at == 0 || contraction > large_contraction ||
+                        contraction > unusual * trial_.usual_contraction;
+  if (!trial_.is_looked_at) {
+    ++s_.expected;
+    return true;
+  }
+  trial_.error = main_.correction_from(trial_.end.v);
+  const bool is_within = trial_.error <= options_.newton.tolerance;
+  if (!std::isnan(trial_.error)) s_.expected = is_within ? s_.expected + 1 : -1;
+  return is_within;
+}
+
 // Accepts the step; or ends the branch, at the bound of the window or at its start.
 Tracer::Impl::Outcome Tracer::Impl::take(double next_step) {
   trial_.end.arclength = s_.here.arclength + trial_.length;
@@ -255,6 +288,7 @@ Tracer::Impl::Outcome Tracer::Impl::take(double next_step) {
 }
 
 Tracer::Impl::Outcome Tracer::Impl::end_at_bound(const Exit& exit) {
+  trial_.is_looked_at = false;
   const double bound = exit.bound;
   const CurvePoint& from = trial_.last_section(s_.here);
   CurvePoint& place = trial_.end;
@@ -289,6 +323,7 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::close_loop() {
   const double rounding = closing_tolerance(main_, s_.start, options_.newton.rounding_level);
   if (!trial_.kink &&
       may_close(main_, s_.start, s_.here, place, trial_.length, options_.step.largest_angle, v_)) {
+    trial_.is_looked_at = false;
     // The nearby branch is that of the start if it has the same solution in the start's plane.
     v_ += main_.dot(s_.start.v - v_, s_.start.tangent) * s_.start.tangent;
     main_.border_row(s_.start.tangent, row_);
@@ -318,7 +353,9 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::close_loop() {
 }
 
 bool Tracer::Impl::accept() {
+  const std::size_t events = s_.branch.events.size();
   const bool keep_going = record_.events_of(trial_);
+  const bool is_there = trial_.is_looked_at && s_.branch.events.size() == events;
   if (record_.terminal()) return end_at(*record_.terminal());
   CurvePoint& place = trial_.end;
   record_.warn_of_undefined(place);
@@ -334,7 +371,8 @@ bool Tracer::Impl::accept() {
   std::swap(s_.here, place);
   rejected_before_ = s_.branch.counts.rejected_steps;
   jacobian_.check_some();
-  if (!keep_going || !record_.show_last_point()) return end(StopReason::user, 1, 1, "stopped by the caller");
+  if (!keep_going || !record_.show_last_point(is_there))
+    return end(StopReason::user, 1, 1, "stopped by the caller");
   return true;
 }
 
@@ -345,6 +383,7 @@ bool Tracer::Impl::end_at(const CurvePoint& terminal) {
   while (!points.empty() && points.back().arclength > terminal.arclength) points.pop_back();
   while (!events.empty() && events.back().point.arclength > terminal.arclength) events.pop_back();
   record_.keep(terminal, {});
+  if (options_.stability && main_.move_to(terminal.v, Needs::jacobian)) record_.add_spectrum(true);
   s_.before = s_.here;
   s_.here = terminal;
   const Event& last = events.back();

@@ -40,8 +40,9 @@ class Tracer::Impl {
 
  private:
   /// What becomes of a step that is tried. rejected: a shorter one is tried, by the tangent and with new
-  /// factors; unresolved: the corrector converged, but a shorter step is needed; ended: the branch has ended.
-  enum class Outcome { accepted, rejected, unresolved, ended };
+  /// factors; unresolved: the corrector converged, but a shorter step is needed; again: the same one is
+  /// tried, by Accept::last_correction; ended: the branch has ended.
+  enum class Outcome { accepted, rejected, unresolved, again, ended };
 
   bool begin();  // tracer_start.cpp
   bool end_at_start(const FirstPoint& first, const Vector& guess, bool has_tangent);
@@ -65,6 +66,7 @@ class Tracer::Impl {
   bool measure();
   bool settle_signs();
   void divide();
+  bool is_as_expected();
   Outcome take(double next_step);
   Outcome end_at_bound(const Exit& exit);
   std::optional<Outcome> close_loop();

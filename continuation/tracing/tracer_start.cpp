@@ -189,7 +189,7 @@ bool Tracer::Impl::begin() {
   s_.start = s_.before = s_.here;
   s_.factors_fit = false;  // their border row is that of the start
   jacobian_.look_at(s_.here.v);
-  if (!record_.show_last_point()) return end(StopReason::user, 1, 1, "stopped by the caller");
+  if (!record_.show_last_point(false)) return end(StopReason::user, 1, 1, "stopped by the caller");
   return within_limits();
 }
 

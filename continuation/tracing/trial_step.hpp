@@ -17,8 +17,11 @@ namespace arcslip::continuation {
 struct TrialStep {
   CurvePoint end;
   Correction correction;
-  double length = 0;  // arclength of the step, by way of its corners
-  double turn = 0;    // rad, of the tangent
+  double usual_contraction = 1;  // of the corrections at the point before
+  double error = 0;              // of the end, relative, where it was looked at
+  bool is_looked_at = false;     // the evaluator has F at the end
+  double length = 0;             // arclength of the step, by way of its corners
+  double turn = 0;               // rad, of the tangent
   bool kink = false;  // the tangent jumps in it: at one of its corners, or at a kink that was not located
   std::vector<PassedKink> corners;        // on the way, in order
   std::optional<LocatedEvent> crossing;   // the branch point on the way
@@ -36,7 +39,7 @@ struct TrialStep {
 
   void begin() {
     length = turn = curve_error = chord_error = 0;
-    kink = other_piece_between = passes_kinks = has_basis = false;
+    is_looked_at = kink = other_piece_between = passes_kinks = has_basis = false;
     corners.clear();
     crossing.reset();
   }

@@ -112,6 +112,21 @@ TEST_CASE("without being asked for, points have no spectrum and a branch no rang
   CHECK(stability_ranges(branch).empty());
 }
 
+TEST_CASE("a terminal event has the spectrum of its place") {
+  Options options = window(0, 40);
+  options.stability = StabilityOptions{};
+  Monitor here{"here", [](const Accepted& now) { return now.parameter - 12.5; }};
+  here.terminal = true;
+  const Branch branch = trace(heat(5), {.u = Vector::Zero(5), .p = Vector{{0.0}}}, options, {here});
+  CHECK(branch.stop.reason == StopReason::event);
+  CHECK(branch.points.back().parameter == Approx(12.5));
+  for (const Point& point : branch.points) {
+    REQUIRE(point.spectrum);
+    CHECK(point.spectrum->unstable == unstable_modes(5, point.parameter));
+    CHECK(std::abs(point.spectrum->leading.front() - (point.parameter - mode(5, 1))) < 1e-9);
+  }
+}
+
 TEST_CASE("infinite eigenvalues of a singular mass are dropped, in dense and in sparse problems") {
   // x' = p x - y, y' = x + p y, 0 = z - x, 0 = v + y - z: mu = p +- i. Beyond them a chain of -1, -2, ..
   for (const int chain : {0, 600}) {
