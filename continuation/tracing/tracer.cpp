@@ -83,7 +83,11 @@ Tracer::Impl::Outcome Tracer::Impl::attempt() {
   if (!interpolation_.resolves_quantities(trial_))
     return refuse(Rejected::quantity, 0, 0, Outcome::unresolved);
   if (!is_as_expected()) {
-    if (std::isnan(trial_.error)) return refuse(Rejected::not_evaluated, trial_.error, 0);
+    if (std::isnan(trial_.error)) {
+      trial_.evaluated = false;
+      trial_.failure = main_.failure();
+      return refuse(Rejected::not_evaluated, trial_.error, 0);
+    }
     jacobian_.suspect(trial_.end.v);
     return Outcome::again;
   }
