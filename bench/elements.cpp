@@ -90,7 +90,7 @@ void element(benchmark::State& state, Example (*make)(), bool jacobian) {
 
 // Of 100 sliders in a table.
 void iwan_table(benchmark::State& state) {
-  std::vector<elements::Slider> sliders;
+  std::vector<elements::IwanSlider> sliders;
   for (int k = 1; k <= 100; ++k) sliders.emplace_back(0.02, 0.0003 * k);
   const elements::Harmonics h{static_cast<int>(state.range(0)), false};
   const auto element = elements::make_iwan_table(h, sliders);

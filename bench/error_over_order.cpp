@@ -69,15 +69,8 @@ class SampledLaw final : public elements::Law {
                            elements::Angles angles) const override {
     return law_->force_at(h, u, fields, angles);
   }
-  void begin(elements::Fields fields, elements::In q, elements::Out z, elements::StepEnd& at) const override {
-    law_->begin(fields, q, z, at);
-  }
-  void step(elements::Fields fields, const elements::StepStart& start, elements::In dq,
-            elements::StepEnd& end) const override {
-    law_->step(fields, start, dq, end);
-  }
-  double stored(elements::Fields fields, elements::In q, elements::In z) const override {
-    return law_->stored(fields, q, z);
+  std::unique_ptr<elements::TimeLaw> in_time(elements::Fields fields) const override {
+    return law_->in_time(fields);
   }
 
  private:

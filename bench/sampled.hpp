@@ -3,6 +3,7 @@
 
 #include <arcslip/laws/law.hpp>
 
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -13,18 +14,18 @@ namespace arcslip::bench {
 /// matrices.
 class Sampled {
  public:
-  Sampled(const elements::Law& law, std::vector<double> fields, const elements::Harmonics& h, int samples)
-      : law_(law),
-        fields_(std::move(fields)),
+  Sampled(const elements::Law& law, const std::vector<double>& fields, const elements::Harmonics& h,
+          int samples)
+      : law_(law.in_time(fields)),
         odd_(h.odd),
         basis_(samples, h.size()),
-        q_(samples, law_.directions()),
-        f_(samples, law_.directions()),
-        end_(law_.directions(), law_.memory()),
-        z_(Eigen::VectorXd::Zero(law_.memory())),
-        z_u_(law_.memory(), h.size() * law_.directions()),
-        J_(h.size() * law_.directions(), h.size() * law_.directions()) {
-    for (int i = 0; i < law_.directions(); ++i) by_u_.emplace_back(samples, h.size() * law_.directions());
+        q_(samples, law.directions()),
+        f_(samples, law.directions()),
+        end_(law.directions(), law.memory()),
+        z_(Eigen::VectorXd::Zero(law.memory())),
+        z_u_(law.memory(), h.size() * law.directions()),
+        J_(h.size() * law.directions(), h.size() * law.directions()) {
+    for (int i = 0; i < law.directions(); ++i) by_u_.emplace_back(samples, h.size() * law.directions());
     Eigen::VectorXd phi(h.size());
     for (int s = 0; s < samples; ++s) {
       elements::series_basis(h, 2 * std::numbers::pi * s / samples, phi);
@@ -37,12 +38,12 @@ class Sampled {
     z_.setZero();
     z_u_.setZero();
     at_ = q_.row(0).transpose();
-    law_.begin(fields_, at_, z_, end_);
+    law_->begin(at_, z_, end_);
     force_ = end_.f;
     for (Eigen::Index k = 1; k <= 2 * q_.rows(); ++k) {
       const Eigen::Index s = k % q_.rows();
       dq_ = q_.row(s).transpose() - at_;
-      law_.step(fields_, {at_, z_, force_}, dq_, end_);
+      law_->step({at_, z_, force_}, dq_, end_);
       z_ += end_.dz;
       at_ = q_.row(s).transpose();
       force_ = end_.f;
@@ -92,8 +93,7 @@ class Sampled {
     }
   }
 
-  const elements::Law& law_;
-  std::vector<double> fields_;
+  std::unique_ptr<elements::TimeLaw> law_;
   bool odd_;                           // without a mean
   Eigen::MatrixXd basis_, q_, f_, F_;  // basis_: samples x coefficients
   elements::StepEnd end_;

@@ -27,7 +27,7 @@
 #include <arcslip/laws/hysteresis/iwan.hpp>
 #include <arcslip/laws/hysteresis/jenkins.hpp>
 #include <arcslip/laws/law.hpp>
-#include <arcslip/laws/rate_law.hpp>
+#include <arcslip/laws/law_type.hpp>
 #include <arcslip/laws/sampled_law.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/model/reduced_scene.hpp>

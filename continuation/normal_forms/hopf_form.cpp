@@ -3,9 +3,12 @@
 #include <arcslip/continuation/linear/shifted_solver.hpp>
 #include <arcslip/continuation/normal_forms/propagated_error.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <optional>
+#include <vector>
 
 namespace arcslip::continuation {
 namespace {
@@ -90,8 +93,42 @@ class HopfForm {
 
 }  // namespace
 
+namespace {
+
+constexpr double nudge = 1e-13;  // of the scales and |u|: other rounding errors, the same form
+constexpr double widening = 10;  // of the distance between the middle one of five and the next but one
+
+// Where J itself consists of differences, its rounding errors are in no estimate of the form: they show as
+// its spread over places next to this one. Of five forms the one in the middle is taken.
+void choose_middle(Evaluator& at, const PlaceOfForms& place, const Hopf& given, Hopf& hopf) {
+  const Vector sizes = place.u.cwiseAbs().cwiseMax(place.scales.head(place.u.size()));
+  if (!hopf.lyapunov.known()) return;
+  std::vector<Hopf> forms{hopf};
+  for (const double way : {-2.0, -1.0, 1.0, 2.0}) {
+    PlaceOfForms nearby = place;
+    nearby.u += way * nudge * sizes;
+    forms.push_back(given);
+    if (!HopfForm(at, nearby).compute(forms.back()) || !forms.back().lyapunov.known()) return;
+  }
+  std::sort(forms.begin(), forms.end(),
+            [](const Hopf& a, const Hopf& b) { return a.lyapunov.value < b.lyapunov.value; });
+  hopf = forms[2];
+  for (const auto coefficient : {&Hopf::lyapunov, &Hopf::detuning, &Hopf::growth, &Hopf::drift}) {
+    std::array<double, 5> distances{};
+    for (std::size_t i = 0; i < forms.size(); ++i)
+      distances[i] = std::abs((forms[i].*coefficient).value - (hopf.*coefficient).value);
+    std::sort(distances.begin(), distances.end());
+    (hopf.*coefficient).error += widening * distances[2];
+  }
+  if (!hopf.lyapunov.signed_by_value()) hopf.criticality = given.criticality;
+}
+
+}  // namespace
+
 void add_normal_form(Evaluator& at, const PlaceOfForms& place, Hopf& hopf) try {
-  HopfForm(at, place).compute(hopf);
+  const Hopf given = hopf;
+  if (HopfForm(at, place).compute(hopf) && at.by_differences().jacobian)
+    choose_middle(at, place, given, hopf);
 } catch (const std::exception&) {  // no derivatives, as it says
 }
 

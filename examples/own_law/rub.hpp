@@ -53,14 +53,7 @@ class Rub final : public arcslip::elements::SampledLaw {
     at.piece = touching == 0 ? 0 : touching < q.rows() ? 1 : 2;  // a round orbit touches all around at once
   }
 
-  void step(arcslip::elements::Fields fields, const arcslip::elements::StepStart& start,
-            arcslip::elements::In dq, arcslip::elements::StepEnd& end) const override {
-    SampledLaw::step(fields, start, dq, end);
-    end.dissipated = 0.5 * (start.f + end.f).dot(dq) -
-                     (stored(fields, start.q + dq, start.z) - stored(fields, start.q, start.z));
-  }
-  double stored(arcslip::elements::Fields fields, arcslip::elements::In q,
-                arcslip::elements::In) const override {
+  double stored(arcslip::elements::Fields fields, arcslip::elements::In q) const override {
     const double depth = std::max(q.norm() - fields[1], 0.0);
     return 0.5 * fields[0] * depth * depth;
   }

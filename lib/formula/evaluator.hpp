@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace arcslip::formula {
@@ -33,30 +34,66 @@ class Evaluator {
  public:
   explicit Evaluator(const Formula& formula);
 
-  /// values: where those of each expression go; null: they are not wanted. Allocates nothing but in the first
-  /// call.
+  /// values: where those of each expression go, apart from the inputs; null: they are not wanted. Allocates
+  /// nothing but in the first call.
   void compute(std::span<const InputValues> inputs, std::size_t samples, std::span<double* const> values,
-               std::span<const Derivative> derivatives = {});
+               std::span<const Derivative> derivatives = {}) {
+    compute(prepare(inputs, derivatives), inputs, samples, values, derivatives);
+  }
+
+  /// The number of what is to be done with such inputs and derivatives, for the other compute().
+  std::size_t prepare(std::span<const InputValues> inputs, std::span<const Derivative> derivatives);
+  void compute(std::size_t program, std::span<const InputValues> inputs, std::size_t samples,
+               std::span<double* const> values, std::span<const Derivative> derivatives);
 
  private:
-  bool has_marks(std::span<const InputValues> inputs, std::span<const Derivative> derivatives) const;
-  void set_marks(std::span<const InputValues> inputs, std::span<const Derivative> derivatives);
-  void compute_values(std::span<const InputValues> inputs, std::size_t from, std::size_t count);
-  static void set_values(const Node& node, std::size_t count, double* __restrict f, const double* a,
-                         const double* b, const double* c);
-  void go_back(std::size_t expression, std::size_t count);
-  void pass_on(const Node& node, int n, std::size_t count);
+  // What is to be done where certain inputs vary and certain derivatives are wanted.
+  struct Program {
+    std::vector<char> varying_inputs;
+    std::vector<std::pair<std::size_t, int>> derivatives;  // expressions and inputs
+    std::vector<int> constants;                            // nodes that are the same for all samples
+    std::vector<std::pair<int, int>> given;            // nodes that are inputs which vary, and these inputs
+    std::vector<int> steps;                            // the other nodes
+    std::vector<std::pair<int, std::size_t>> results;  // of them, and the expression that each is
+    std::vector<std::pair<int, std::size_t>> copies;   // other nodes that are expressions
+    // The sweep back over an expression: from the adjoint of a node to those of its arguments, where a
+    // derivative goes through these: set first, then added to.
+    enum class Pass : char { none, set, add };
+    struct Back {
+      int node;
+      Pass a, b, c;
+    };
+    struct Sweep {
+      std::size_t expression;
+      std::vector<Back> steps;
+      std::vector<std::pair<int, std::size_t>> ends;  // nodes and the derivatives that they are
+      std::vector<std::size_t> zeros;                 // derivatives by what the expression does not have
+    };
+    std::vector<Sweep> sweeps;
+  };
+
+  Program make_program(std::span<const InputValues> inputs, std::span<const Derivative> derivatives) const;
+  std::vector<char> active_nodes(std::size_t expression, std::span<const Derivative> derivatives) const;
+  Program::Sweep make_sweep(std::size_t expression, std::span<const Derivative> derivatives) const;
+  void reserve(std::size_t samples);
+  void set_constants(std::size_t program, std::span<const InputValues> inputs);
+  void set_values(int n, std::size_t count);
+  void go_back(const Program::Sweep& sweep, std::size_t count);
+  void pass_on(const Program::Back& step, bool is_last, std::size_t count);
+  double* own_values(int node) { return values_.data() + static_cast<std::size_t>(node) * stride_; }
+  double* own_adjoints(int node) { return adjoints_.data() + static_cast<std::size_t>(node) * stride_; }
   const double* values_of(int node) const { return at_[static_cast<std::size_t>(node)]; }
-  double* adjoints_of(int node) { return adjoints_.data() + static_cast<std::size_t>(node) * stride_; }
+  double* adjoints_of(int node) const { return adjoints_at_[static_cast<std::size_t>(node)]; }
 
   const Formula& formula_;
-  std::size_t stride_ = 0;             // between the values of two nodes
-  std::vector<char> varies_, active_;  // nodes: whether samples differ; whether a derivative goes through it
-  std::vector<char> marked_inputs_;    // for these marks: which inputs vary
-  std::vector<int> marked_derivatives_;  // by which inputs derivatives are taken
+  std::vector<Program> programs_;
+  std::size_t constants_of_;  // the program whose constants are set
+  std::size_t stride_ = 0;    // between the values of two nodes
   std::vector<double> values_, adjoints_;
-  std::vector<const double*> at_;  // the values of each node: those of an input where they are given
-  std::vector<char> reached_;      // nodes whose adjoints are known so far
+  // The values of each node: those of an input where they are given. Those of an expression are computed
+  // where they go, as are its derivatives.
+  std::vector<const double*> at_;
+  std::vector<double*> results_at_, adjoints_at_;
 };
 
 }  // namespace arcslip::formula

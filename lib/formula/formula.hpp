@@ -68,8 +68,9 @@ class Formula {
  public:
   /// Of no expression.
   Formula() = default;
-  /// Throws FormulaError.
-  Formula(std::span<const std::string> expressions, const InputOf& input_of);
+  /// Throws FormulaError. Those that a program writes may be of any size.
+  enum class Author { user, program };
+  Formula(std::span<const std::string> expressions, const InputOf& input_of, Author author = Author::user);
   /// From nodes, each after its arguments, and those of the expressions.
   Formula(std::vector<Node> nodes, std::vector<int> results)
       : nodes_(std::move(nodes)), results_(std::move(results)) {}

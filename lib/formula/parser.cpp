@@ -43,11 +43,16 @@ constexpr Comparison comparisons[] = {
 /// Reads the text of one expression into nodes.
 class Parser {
  public:
-  Parser(std::string_view text, std::size_t index, const InputOf& input_of, TapeBuilder& tape)
-      : text_(text), index_(index), input_of_(input_of), tape_(tape) {}
+  Parser(std::string_view text, std::size_t index, const InputOf& input_of, TapeBuilder& tape,
+         Formula::Author author)
+      : text_(text),
+        index_(index),
+        input_of_(input_of),
+        tape_(tape),
+        has_limits_(author == Formula::Author::user) {}
 
   int whole() {
-    if (text_.size() > longest_text)
+    if (has_limits_ && text_.size() > longest_text)
       fail(longest_text, "is longer than " + std::to_string(longest_text) + " characters");
     const int node = comparison();
     if (!at_end())
@@ -235,7 +240,7 @@ class Parser {
   // from: where the operation stands.
   int node(std::size_t from, Operation operation, int a, int b = -1, int c = -1, double value = 0) {
     const int made = tape_.add(operation, a, b, c, value);
-    if (tape_.size() > static_cast<std::size_t>(largest_size))
+    if (has_limits_ && tape_.size() > static_cast<std::size_t>(largest_size))
       fail(from, "has more than " + std::to_string(largest_size) + " operations");
     if (tape_.is_constant(made) && !std::isfinite(tape_.at(made).value))
       fail(from, "found a value that is not a finite number");
@@ -308,16 +313,17 @@ class Parser {
   std::size_t index_;
   const InputOf& input_of_;
   TapeBuilder& tape_;
+  bool has_limits_;
   std::size_t at_ = 0;
   int depth_ = 0;
 };
 
 }  // namespace
 
-Formula::Formula(std::span<const std::string> expressions, const InputOf& input_of) {
+Formula::Formula(std::span<const std::string> expressions, const InputOf& input_of, Author author) {
   TapeBuilder tape;
   for (std::size_t k = 0; k < expressions.size(); ++k)
-    results_.push_back(Parser(expressions[k], k, input_of, tape).whole());
+    results_.push_back(Parser(expressions[k], k, input_of, tape, author).whole());
   // Without what is only part of constants.
   const std::vector<Node> all = tape.take();
   const std::vector<char> needed = needed_by(all, results_);

@@ -18,8 +18,14 @@ class Samples {
   void values(In u, Out x) const { x.noalias() = basis_ * u; }
   /// phi at sample s, as a row.
   auto basis(int s) const { return basis_.row(s); }
-  /// y += basis^T f.
-  void project(In f, Out y) const { y.noalias() += basis_.transpose() * f; }
+  /// F = the Fourier coefficients of the samples f.
+  void coefficients(In f, Out F) const {
+    F.noalias() = basis_.transpose() * f;
+    F *= factor();
+    if (!harmonics_.odd) F[0] *= 0.5;
+  }
+  /// What sums over the samples are multiplied with: the weight over a half of the span, or of the turn.
+  double factor() const { return (harmonics_.odd ? 2 : 1) / std::numbers::pi * weight(); }
   /// Moments of the weights w at the samples: sum_s w_s phi phi^T.
   void moments(In w, Moments& result) const;
 

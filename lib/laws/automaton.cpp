@@ -25,4 +25,26 @@ Mode& Automaton::add(std::string_view name, double f_q, double f_z, double f_0) 
   return mode;
 }
 
+Slider slider_of(const Automaton& automaton) {
+  const Eigen::Index d = automaton.modes.front().f_q.cols();
+  Slider slider{
+      automaton.memory, automaton.direction, Eigen::RowVectorXd::Unit(d, automaton.direction), {}, 0, {}};
+  slider.upper = slider.lower;
+  double lower = 0, upper = 0;
+  for (const Mode& mode : automaton.modes) {
+    if (mode.rests || mode.open) continue;
+    if (mode.way >= 0) {
+      slider.lower = mode.z_q;
+      lower = mode.z_0;
+    }
+    if (mode.way <= 0) {
+      slider.upper = mode.z_q;
+      upper = mode.z_0;
+    }
+  }
+  if (lower != -upper) slider.centre = 0.5 * (lower + upper);
+  if (automaton.offset != Offset::centred) slider.room = 0.5 * (upper - lower);
+  return slider;
+}
+
 }  // namespace arcslip::elements

@@ -3,14 +3,14 @@
 //
 //   f = f_q q + f_z z,   z' = r(z, sgn q') q',   |z| <= b
 //
-// with constant f_q and f_z, those of Law::begin(), and the same both ways: r(-z, -1) = r(z, 1). What z is
-// along a motion depends on its reversals alone (stability/memory_along.hpp).
+// with constant f_q and f_z, those of TimeLaw::begin(), and the same both ways: r(-z, -1) = r(z, 1). What z
+// is along a motion depends on its reversals alone (stability/memory_along.hpp).
 
 #include <span>
 
 namespace arcslip::elements {
 
-/// A further base of such a law.
+/// An optional part of such a law: Law::hysteresis().
 class Hysteresis {
  public:
   /// b, m.

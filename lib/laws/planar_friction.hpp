@@ -7,7 +7,7 @@
 
 namespace arcslip::elements {
 
-/// A further base of such a law.
+/// An optional part of such a law: Law::plane_friction().
 class PlaneFriction {
  public:
   /// Stiffnesses k_t, k_n (N/m), friction coefficient, and the normal load at rest, N.

@@ -46,14 +46,14 @@ class SampledElement final : public Element {
     has_field_derivatives_ = false;
     has_tangent_ = jacobian;
     law_.sample_motion(fields_, {q_, v_, phase_}, jacobian ? Wanted::tangent : Wanted::force, at_);
-    for (Eigen::Index i = 0; i < directions_; ++i) project(at_.f.col(i), F_.segment(i * c, c));
+    for (Eigen::Index i = 0; i < directions_; ++i) samples_.coefficients(at_.f.col(i), F_.segment(i * c, c));
     if (!jacobian) return;
     J_.setZero();
     for (Eigen::Index j = 0; j < directions_; ++j)
       for (Eigen::Index i = 0; i < directions_; ++i) {
         samples_.moments(at_.f_q.col(j * directions_ + i), moments_);
         auto block = J_.block(i * c, j * c, c, c);
-        moments_.add_to(block, factor());
+        moments_.add_to(block, samples_.factor());
         if (moves_) add_rate(j * directions_ + i, block);
         if (!h_.odd) block.row(0) *= 0.5;
       }
@@ -72,7 +72,7 @@ class SampledElement final : public Element {
       weights_.setZero();
       for (Eigen::Index j = 0; j < directions_; ++j)
         weights_.array() += at_.f_v.col(j * directions_ + i).array() * v_.col(j).array() / frequency_;
-      project(weights_, dF.segment(i * c, c));
+      samples_.coefficients(weights_, dF.segment(i * c, c));
     }
   }
   void field_derivative(int field, Out dF) const override {
@@ -80,23 +80,15 @@ class SampledElement final : public Element {
     if (!has_field_derivatives_) law_.sample_motion(fields_, {q_, v_, phase_}, Wanted::by_fields, at_);
     has_field_derivatives_ = true;
     for (Eigen::Index i = 0; i < directions_; ++i)
-      project(at_.f_field.col(field * directions_ + i), dF.segment(i * c, c));
+      samples_.coefficients(at_.f_field.col(field * directions_ + i), dF.segment(i * c, c));
   }
 
  private:
-  double factor() const { return (h_.odd ? 2 : 1) / std::numbers::pi * samples_.weight(); }
-  void project(In f, Out F) const {
-    F.setZero();
-    samples_.project(f, F);
-    F *= factor();
-    if (!h_.odd) F[0] *= 0.5;
-  }
-
   // Adds G(f_v) times the matrix that makes coefficients of v of those of q.
   void add_rate(Eigen::Index column, Eigen::Ref<Eigen::MatrixXd> block) {
     samples_.moments(at_.f_v.col(column), moments_);
     block_.setZero();
-    moments_.add_to(block_, factor() * frequency_);
+    moments_.add_to(block_, samples_.factor() * frequency_);
     for (int j = 0; j < h_.sines(); ++j) {
       const int n = h_.sine_order(j), a = h_.cosine_index(n), b = h_.sine_index(n);
       block.col(a) -= n * block_.col(b);
@@ -123,21 +115,55 @@ class SampledElement final : public Element {
   Eigen::MatrixXd block_;
 };
 
-void set_sample_force(const SampledLaw& law, Fields fields, StepEnd& at) {
-  const Eigen::Index d = at.f.size();
-  if (at.sample.f.size() == 0) {
-    at.sample = {1, d, static_cast<Eigen::Index>(fields.size())};
-    at.sample_phase.resize(1);
+class SampledInTime final : public TimeLaw {
+ public:
+  SampledInTime(const SampledLaw& law, Fields fields)
+      : law_(law), fields_(fields.begin(), fields.end()), probe_(law, fields), at_rest_(law, fields) {}
+
+  void begin(In q, Out, StepEnd& at) override { set(q.transpose(), at); }
+  void step(const StepStart& start, In dq, StepEnd& end) override {
+    end_ = start.q + dq;
+    set(end_.transpose(), end);
+    end.dissipated = law_.dissipative() ? 0.5 * (start.f + end.f).dot(dq) - stored_in_step(start, dq) : 0;
   }
-  at.sample_v = at.v.transpose();
-  at.sample_phase[0] = at.phase;
-  law.sample_motion(fields, {at.sample_q, at.sample_v, at.sample_phase}, Wanted::tangent, at.sample);
-  at.f = at.sample.f.row(0).transpose();
-  at.f_q = at.sample.f_q.reshaped(d, d);
-  if (law.rate_dependent()) at.f_v = at.sample.f_v.reshaped(d, d);
-}
+  double stored(In q, In) override { return law_.stored(fields_, q); }
+
+ private:
+  void set(const Eigen::Ref<const Eigen::RowVectorXd>& q, StepEnd& at) {
+    const Eigen::Index d = at.f.size();
+    probe_.q = q;
+    probe_.v = at.v.transpose();
+    probe_.phase[0] = at.phase;
+    const SampledForce& sample = probe_.tangent();
+    at.f = sample.f.row(0).transpose();
+    at.f_q = sample.f_q.reshaped(d, d);
+    if (law_.rate_dependent()) at.f_v = sample.f_v.reshaped(d, d);
+  }
+  // Along one direction by the trapezoidal rule, as the work.
+  double stored_in_step(const StepStart& start, In dq) {
+    if (dq.size() > 1) return law_.stored(fields_, end_) - law_.stored(fields_, start.q);
+    if (law_.phase_dependent() || !law_.rate_dependent()) return 0;
+    double sum = 0;
+    for (const double q : {start.q[0], end_[0]}) {
+      at_rest_.q(0, 0) = q;
+      sum += at_rest_.force().f(0, 0);
+    }
+    return 0.5 * sum * dq[0];
+  }
+
+  const SampledLaw& law_;
+  std::vector<double> fields_;
+  ForceProbe probe_, at_rest_;
+  Eigen::VectorXd end_;
+};
 
 }  // namespace
+
+SampledForce::SampledForce(Eigen::Index rows, Eigen::Index directions, Eigen::Index fields)
+    : f(Eigen::MatrixXd::Zero(rows, directions)),
+      f_q(Eigen::MatrixXd::Zero(rows, directions * directions)),
+      f_v(f_q),
+      f_field(Eigen::MatrixXd::Zero(rows, directions * fields)) {}
 
 std::unique_ptr<Element> SampledLaw::element(const Harmonics& harmonics, const Sampling&) const {
   return std::make_unique<SampledElement>(*this, harmonics);
@@ -163,14 +189,21 @@ Eigen::MatrixXd SampledLaw::moving_force_at(const Harmonics& h, In u, double bas
   return std::move(at.f);
 }
 
-void SampledLaw::begin(Fields fields, In q, Out, StepEnd& at) const {
-  at.sample_q = q.transpose();
-  set_sample_force(*this, fields, at);
+std::unique_ptr<TimeLaw> SampledLaw::in_time(Fields fields) const {
+  return std::make_unique<SampledInTime>(*this, fields);
 }
 
-void SampledLaw::step(Fields fields, const StepStart& start, In dq, StepEnd& end) const {
-  end.sample_q = (start.q + dq).transpose();
-  set_sample_force(*this, fields, end);
+ForceProbe::ForceProbe(const SampledLaw& law, Fields fields)
+    : q(Eigen::MatrixXd::Zero(1, law.directions())),
+      v(q),
+      phase(Eigen::VectorXd::Zero(1)),
+      law_(law),
+      fields_(fields.begin(), fields.end()),
+      at_(1, law.directions(), static_cast<Eigen::Index>(fields.size())) {}
+
+const SampledForce& ForceProbe::sample(Wanted wanted) {
+  law_.sample_motion(fields_, {q, v, phase}, wanted, at_);
+  return at_;
 }
 
 }  // namespace arcslip::elements

@@ -2,6 +2,7 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/control/run_control.hpp>
+#include <arcslip/laws/law_type.hpp>
 #include <arcslip/model/placed_matrices.hpp>
 #include <arcslip/scene/patch.hpp>
 #include <arcslip/scene/rotation.hpp>

@@ -1,6 +1,6 @@
 #include <arcslip/observables/quantities.hpp>
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 #include <arcslip/scene/patch.hpp>
 
 #include <algorithm>

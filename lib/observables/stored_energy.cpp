@@ -16,25 +16,25 @@ using Eigen::VectorXd;
 constexpr int laps = 2;  // after which the memory no longer knows where it began
 
 // The memory of a law of one direction at an angle, marched there from the middle of the motion.
-VectorXd marched(const elements::Law& law, elements::Fields fields, const elements::Harmonics& h,
-                 elements::In motion, double theta) {
+VectorXd marched(elements::TimeLaw& law, int memory, const elements::Harmonics& h, elements::In motion,
+                 double theta) {
   elements::Reversals reversals(h);
   std::vector<elements::Reversal> turns = reversals.find(motion.head(h.size()));
   const std::size_t found = turns.size();
   for (std::size_t i = 0; h.odd && i < found; ++i)
     turns.push_back({turns[i].theta + std::numbers::pi, -turns[i].x});
-  VectorXd z = VectorXd::Zero(law.memory());
+  VectorXd z = VectorXd::Zero(memory);
   if (turns.empty()) return z;
   const auto [low, high] =
       std::minmax_element(turns.begin(), turns.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
   z.setConstant(0.5 * (low->x + high->x));
   VectorXd q = VectorXd::Constant(1, turns.front().x), f(1), dq(1);
-  elements::StepEnd end(1, law.memory());
-  law.begin(fields, q, z, end);
+  elements::StepEnd end(1, memory);
+  law.begin(q, z, end);
   f = end.f;
   const auto go_to = [&](double x) {
     dq[0] = x - q[0];
-    law.step(fields, {q, z, f}, dq, end);
+    law.step({q, z, f}, dq, end);
     q[0] = x;
     z += end.dz;
     f = end.f;
@@ -55,11 +55,12 @@ double stored_energy(const elements::Law& law, elements::Fields fields, const el
   VectorXd q(law.directions()), z = VectorXd::Zero(law.memory());
   for (int i = 0; i < law.directions(); ++i)
     q[i] = elements::series_values(h, motion.segment(i * h.size(), h.size()), theta).x;
+  const auto in_time = law.in_time(fields);
   if (law.memory() > law.directions())
-    z = marched(law, fields, h, motion, theta);
+    z = marched(*in_time, law.memory(), h, motion, theta);
   else if (law.memory() > 0)
-    law.memory_at(fields, q, law.force_at(h, motion, fields, {&theta, 1}).row(0).transpose(), z);
-  return law.stored(fields, q, z);
+    in_time->memory_at(q, law.force_at(h, motion, fields, {&theta, 1}).row(0).transpose(), z);
+  return in_time->stored(q, z);
 }
 
 }  // namespace arcslip::observables

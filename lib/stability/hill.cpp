@@ -106,6 +106,7 @@ struct Hill::Impl {
     const int samples = 4 * order + 4, directions = element.law->directions();
     law.T.assign(static_cast<std::size_t>(2 * order + 1), ComplexMatrix::Zero(directions, directions));
     if (law.moving) law.B = law.T;
+    const auto in_time = element.law->in_time(element.fields);
     elements::StepEnd at{directions, 0};
     Vector q(directions), none(0);
     for (int i = 0; i < samples; ++i) {
@@ -116,7 +117,7 @@ struct Hill::Impl {
         at.v[k] = omega * values.d1;
       }
       at.phase = harmonics.period * theta;
-      element.law->begin(element.fields, q, none, at);
+      in_time->begin(q, none, at);
       for (std::size_t m = 0; m < law.T.size(); ++m) {
         const Complex by = std::polar(
             1.0 / samples, -elements::whole_turn * ((static_cast<int>(m) * i) % samples) / samples);

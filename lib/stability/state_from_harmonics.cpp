@@ -26,7 +26,8 @@ MotionState state_of(const hbm::HbmProblem& problem, elements::In u, const conti
     Vector f(q.size());
     for (Eigen::Index i = 0; i < f.size(); ++i)
       f[i] = elements::series_values(h, evaluator->element(e).force().segment(i * h.size(), h.size()), 0).x;
-    element.law->memory_at(element.fields, q, f, state.z.segment(element.memory, element.law->memory()));
+    element.law->in_time(element.fields)
+        ->memory_at(q, f, state.z.segment(element.memory, element.law->memory()));
   }
   return state;
 }

@@ -12,21 +12,13 @@ namespace {
 constexpr double near_end = 1.0 / 1024;       // of a piece
 constexpr double negligible_varying = 1e-13;  // coefficient, by the largest one
 
-const elements::Hysteresis* hysteresis_of(const elements::Law& law) {
-  return dynamic_cast<const elements::Hysteresis*>(&law);
-}
-
-const elements::PlaneFriction* plane_friction_of(const elements::Law& law) {
-  return dynamic_cast<const elements::PlaneFriction*>(&law);
-}
-
 }  // namespace
 
 VaryingCoefficients::VaryingCoefficients()
     : fit_(nodes), by_values_(fit_.by_values), powers_(fit_.powers.transpose()) {}
 
 bool VaryingCoefficients::takes(const elements::Law& law) {
-  return law.memory() == 0 || hysteresis_of(law) || plane_friction_of(law);
+  return law.memory() == 0 || law.hysteresis() || law.plane_friction();
 }
 
 void VaryingCoefficients::add(const TimeElement& element, int index, Matrix over_mass) {
@@ -34,16 +26,16 @@ void VaryingCoefficients::add(const TimeElement& element, int index, Matrix over
   variables_.emplace_back(over_mass, element.directions, nodes, moving);
   directions_.push_back(element.directions);
   const std::size_t variable = variables_.size() - 1;
-  if (const auto* law = hysteresis_of(*element.law)) {
+  if (const auto* law = element.law->hysteresis()) {
     elements::StepEnd at{1, 1};
     Vector q = Vector::Zero(1), z = q;
-    element.law->begin(element.fields, q, z, at);
+    element.law->in_time(element.fields)->begin(q, z, at);
     variables_.back().by_memory.setZero(1, nodes);
     hystereses_.push_back(
         {&element, index, variable, at.f_q(0, 0), at.f_z(0, 0), HysteresisCourse(*law, element.fields)});
     return;
   }
-  if (const auto* law = plane_friction_of(*element.law)) {
+  if (const auto* law = element.law->plane_friction()) {
     planar_.push_back({index, variable, DiscCourse(law->contact(element.fields))});
     return;
   }
@@ -51,6 +43,7 @@ void VaryingCoefficients::add(const TimeElement& element, int index, Matrix over
                      index,
                      variable,
                      moving,
+                     element.law->in_time(element.fields),
                      {element.law->directions(), 0},
                      variables_.back().T,
                      variables_.back().B});
@@ -162,7 +155,7 @@ void VaryingCoefficients::set(Smooth& law, Piece& piece) {
       law.at.v[k] = omega_ * values.d1;
     }
     law.at.phase = harmonics_.period * angle_[i];
-    law.element->law->begin(law.element->fields, q_, none_, law.at);
+    law.in_time->begin(q_, none_, law.at);
     law.T.middleCols(i * size, size) = law.at.f_q;
     most_T = std::max(most_T, law.at.f_q.cwiseAbs().sum());
     if (!law.moving) continue;

@@ -88,6 +88,7 @@ class VaryingCoefficients {
     int index;
     std::size_t variable;
     bool moving;  // its force depends on velocities
+    std::unique_ptr<elements::TimeLaw> in_time;
     elements::StepEnd at;
     Matrix T, B;  // side by side
   };

@@ -11,8 +11,8 @@
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/laws/hysteresis/bouc_wen.hpp>
 #include <arcslip/laws/hysteresis/jenkins.hpp>
-#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/laws/memoryless/quadratic_damper.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/time/newmark/newmark.hpp>
 

@@ -1,6 +1,7 @@
 #include <arcslip/laws/contact/contact_2d.hpp>
 
 #include <arcslip/laws/offset_option.hpp>
+#include <arcslip/laws/sampled_automata.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -85,8 +86,9 @@ class Contact2d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
     return field == contact_field::friction_coefficient || field == contact_field::normal_load;
   }
 
-  std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling&) const override {
-    return make_contact_2d(harmonics, offset_);
+  std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling& sampling) const override {
+    return sampling.exact ? make_contact_2d(harmonics, offset_)
+                          : sampled_automata(*this, harmonics, sampling.samples);
   }
   std::unique_ptr<Corners> corners(const Harmonics& harmonics) const override {
     return make_contact_2d_corners(harmonics, offset_);
@@ -111,96 +113,12 @@ class Contact2d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
     return force;
   }
 
-  int slider_direction(int) const override { return tangential; }
-  Eigen::RowVectorXd slider_bound(Fields fields, int, int side) const override {
-    const ContactLaw law = contact_law(fields);
-    return Eigen::RowVector2d(1, side * law.mu * law.k_n / law.k_t);
-  }
-  std::optional<double> slider_room(Fields fields, int) const override {
-    if (offset_ == Offset::centred) return {};
-    const ContactLaw law = contact_law(fields);
-    return law.mu * law.N_0 / law.k_t;
-  }
-
-  void memory_at(Fields fields, In q, In f, Out z) const override {
-    z[0] = q[tangential] - f[tangential] / fields[contact_field::tangential_stiffness];
-  }
-
-  void begin(Fields fields, In q, Out z, StepEnd& at) const override {
-    const ContactLaw law = contact_law(fields);
-    const double N = load(law, q[normal]), elastic = law.k_t * (q[tangential] - z[0]);
-    const bool open = N == 0;
-    at.f[tangential] = std::clamp(elastic, -law.mu * N, law.mu * N);
-    at.f[normal] = N - std::max(law.N_0, 0.0);
-    at.f_q << (open ? 0 : law.k_t), 0, 0, (open ? 0 : law.k_n);
-    at.f_z << (open ? 0 : -law.k_t), 0;
-    if (at.f[tangential] != elastic) z[0] = q[tangential] - at.f[tangential] / law.k_t;
-  }
-
-  // Along the step both bounds and N are linear: the contact opens or closes once at most, and slips at the
-  // end of the contact if at all.
-  void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const override {
-    const ContactLaw law = contact_law(fields);
-    const double k = law.k_t, mu = law.mu, dt = dq[tangential];
-    const double N_begin = law.N_0 + law.k_n * start.q[normal], dN = law.k_n * dq[normal];
-    const double N_end = N_begin + dN;
-    clear(end);
-    end.f[normal] = std::max(N_end, 0.0) - std::max(law.N_0, 0.0);
-    if (N_begin <= 0 && N_end <= 0) {  // open
-      end.dz[0] = dt + start.f[tangential] / k;
-      end.open_share = 1;
-      follow(end, 0);
-      return;
-    }
-    if (N_begin <= 0) {
-      close(law, N_begin, dN, dt, start.f[tangential], end);
-      return;
-    }
-    const double T = start.f[tangential], contact = N_end > 0 ? 1 : N_begin / (N_begin - N_end);
-    const double at_end = contact < 1 ? 0 : N_end;  // the load at the end of contact
-    const double elastic = T + k * contact * dt, limit = mu * at_end;
-    const bool sticks = contact == 1 && std::abs(elastic) < limit;
-    if (N_end > 0) end.f_q(normal, normal) = law.k_n;
-    if (sticks) {
-      end.f[tangential] = elastic;
-      end.f_q(tangential, tangential) = k;
-      end.f_z(tangential, 0) = -k;
-      end.z_z(0, 0) = 1;
-      end.stick_share = 1;
-      return;
-    }
-    const double sign = elastic < 0 ? -1 : 1, rate = k * dt - sign * mu * dN;
-    const double onset = rate != 0 ? std::clamp((sign * mu * N_begin - T) / rate, 0.0, contact) : 0;
-    const double force = sign * limit, slip = contact * dt - (force - T) / k;
-    end.dissipated = 0.5 * (sign * mu * (N_begin + onset * dN) + force) * slip;
-    end.stick_share = mu > 0 ? onset : 0;
-    end.open_share = 1 - contact;
-    if (contact < 1) {
-      end.dz[0] = slip + (1 - contact) * dt;
-      follow(end, 0);
-    } else {
-      end.dz[0] = slip;
-      end.f[tangential] = force;
-      end.f_q(tangential, normal) = sign * mu * law.k_n;
-      follow(end, sign * mu * law.k_n / k);
-    }
-  }
-
-  double stored(Fields fields, In q, In z) const override {
-    const ContactLaw law = contact_law(fields);
-    const double stretch = q[tangential] - z[0], x = q[normal];
-    double energy = 0.5 * law.k_t * stretch * stretch;
-    if (law.k_n == 0) return energy;
-    const double touch = -law.N_0 / law.k_n;  // where N = 0
-    if (law.N_0 <= 0) return energy + (x > touch ? 0.5 * law.k_n * (x - touch) * (x - touch) : 0);
-    return energy + (x > touch ? 0.5 * law.k_n * x * x : law.N_0 * (0.5 * touch - x));
-  }
-
   // Stick comes first: an automaton begins there, with the memory that it has.
   std::optional<std::vector<Automaton>> automata(Fields fields) const override {
     const ContactLaw law = contact_law(fields);
     enum { stick, slip_up, slip_down, open };
     Automaton contact(0);
+    contact.offset = offset_;
     const auto add = [&](std::string_view name, double k_t, double k_n) -> Mode& {
       Mode& mode = contact.modes.emplace_back();
       mode.name = name;
@@ -250,43 +168,6 @@ class Contact2d final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
         std::upper_bound(phases.begin(), phases.end(), angle,
                          [](double theta, const ContactPhase& phase) { return theta < phase.begin; });
     return after == phases.begin() ? phases.front() : *(after - 1);
-  }
-
-  static void clear(StepEnd& end) {
-    for (Eigen::MatrixXd* m : {&end.f_q, &end.f_z, &end.f_start, &end.z_q, &end.z_z, &end.z_start})
-      m->setZero();
-    end.f.setZero();
-    end.dz.setZero();
-    end.dissipated = end.stick_share = end.open_share = 0;
-  }
-  // w = x_t - by_normal x_n + ... at the end.
-  static void follow(StepEnd& end, double by_normal) { end.z_q << 1, -by_normal; }
-
-  // The contact closes after the share s of the step, with w = x_t there.
-  static void close(const ContactLaw& law, double N_begin, double dN, double dt, double T, StepEnd& end) {
-    const double s = -N_begin / dN, k = law.k_t, N_end = N_begin + dN;
-    const double elastic = k * (1 - s) * dt, limit = law.mu * N_end;
-    const double follows = s * dt + T / k;
-    end.f_q(normal, normal) = law.k_n;
-    end.open_share = s;
-    if (std::abs(elastic) < limit) {
-      const double shift = -law.k_n * dt / dN;  // of w per share of a change of x_n
-      end.dz[0] = follows;
-      end.f[tangential] = elastic;
-      end.z_q << s, s * shift;
-      end.z_start << 1 - s, (1 - s) * shift;
-      end.f_q(tangential, tangential) = k * (1 - s);
-      end.f_q(tangential, normal) = -k * s * shift;
-      end.f_start.row(tangential) = -k * end.z_start;
-      end.stick_share = 1 - s;
-      return;
-    }
-    const double sign = elastic < 0 ? -1 : 1, slip = (1 - s) * dt - sign * limit / k;
-    end.dz[0] = follows + slip;
-    end.f[tangential] = sign * limit;
-    end.dissipated = 0.5 * sign * limit * slip;
-    end.f_q(tangential, normal) = sign * law.mu * law.k_n;
-    follow(end, sign * law.mu * law.k_n / k);
   }
 
   Offset offset_;

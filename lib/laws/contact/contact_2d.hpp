@@ -28,7 +28,7 @@
 // (N). Directions: tangential, normal, positive into the contact.
 
 #include <arcslip/laws/contact/contact_phases.hpp>
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 
 namespace arcslip::elements {
 

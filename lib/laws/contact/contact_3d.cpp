@@ -157,6 +157,120 @@ scene::file::KeysOf<OffsetOption> contact_3d_keys() {
   return keys;
 }
 
+class Contact3dInTime final : public TimeLaw {
+ public:
+  explicit Contact3dInTime(const PlaneContactLaw& law) : law_(law) {}
+
+  void memory_at(In q, In f, Out z) override { z.head<2>() = q.head<2>() - f.head<2>() / law_.k_t; }
+
+  void begin(In q, Out z, StepEnd& at) override {
+    const double N = law_.load(q[plane_normal]), limit = law_.mu * N;
+    const Vector2d elastic = law_.k_t * (q.head<2>() - z.head<2>());
+    const double size = elastic.norm();
+    at.f.head<2>() = size > limit ? Vector2d(limit / size * elastic) : elastic;
+    at.f[plane_normal] = N - std::max(law_.N_0, 0.0);
+    at.f_q.setZero();
+    at.f_z.setZero();
+    if (N > 0) {
+      at.f_q.diagonal() << law_.k_t, law_.k_t, law_.k_n;
+      at.f_z.topRows<2>().diagonal().setConstant(-law_.k_t);
+    }
+    if (size > limit) z.head<2>() = q.head<2>() - at.f.head<2>() / law_.k_t;
+  }
+
+  // Along the step the radius and N are linear: the contact opens or closes once at most.
+  void step(const StepStart& start, In dq, StepEnd& end) override {
+    const double k = law_.k_t, ratio = law_.mu * law_.k_n / k;
+    const Vector2d d = dq.head<2>(), y = start.f.head<2>() / k;
+    const double N_begin = law_.N_0 + law_.k_n * start.q[plane_normal], dN = law_.k_n * dq[plane_normal];
+    const double N_end = N_begin + dN;
+    clear(end);
+    end.f[plane_normal] = std::max(N_end, 0.0) - std::max(law_.N_0, 0.0);
+    end.z_q.leftCols<2>().setIdentity();
+    if (N_end > 0) end.f_q(plane_normal, plane_normal) = law_.k_n;
+    if (N_begin <= 0 && N_end <= 0) {  // open
+      end.dz = d + y;
+      end.open_share = 1;
+      return;
+    }
+    if (N_begin <= 0) return close(law_, N_begin, dN, d, y, end);
+    const double contact = N_end > 0 ? 1 : N_begin / (N_begin - N_end);
+    const Stretch at(y, d, law_.mu * N_begin / k, law_.mu * dN / k, contact);
+    end.stick_share = law_.mu > 0 ? at.onset : 0;
+    end.open_share = 1 - contact;
+    end.dissipated = k * at.dissipated;
+    if (contact < 1) {
+      end.dz = d + y;
+      return;
+    }
+    Eigen::Matrix<double, 2, 3> by_end, by_start;
+    by_end << at.by_d, ratio * at.by_e;
+    by_start << at.by_y - at.by_d, ratio * (at.by_h - at.by_e);
+    end.dz = d + y - at.y;
+    set(k, at.y, by_end, by_start, end);
+    end.f_z.topRows<2>() = -k * at.by_y;
+    end.z_z = at.by_y;
+  }
+
+  double stored(In q, In z) override {
+    const double x = q[plane_normal];
+    const double energy = 0.5 * law_.k_t * (q.head<2>() - z.head<2>()).squaredNorm();
+    if (law_.k_n == 0) return energy;
+    const double touch = -law_.N_0 / law_.k_n;  // where N = 0
+    if (law_.N_0 <= 0) return energy + (x > touch ? 0.5 * law_.k_n * (x - touch) * (x - touch) : 0);
+    return energy + (x > touch ? 0.5 * law_.k_n * x * x : law_.N_0 * (0.5 * touch - x));
+  }
+
+ private:
+  static void clear(StepEnd& end) {
+    for (Eigen::MatrixXd* m : {&end.f_q, &end.f_z, &end.f_start, &end.z_q, &end.z_z, &end.z_start})
+      m->setZero();
+    end.f.setZero();
+    end.dz.setZero();
+    end.dissipated = end.stick_share = end.open_share = 0;
+  }
+  // The force k y and the memory x - y at the end.
+  static void set(double k, const Vector2d& y, const Eigen::Matrix<double, 2, 3>& by_end,
+                  const Eigen::Matrix<double, 2, 3>& by_start, StepEnd& end) {
+    end.f.head<2>() = k * y;
+    end.f_q.topRows<2>() = k * by_end;
+    end.f_start.topRows<2>() = k * by_start;
+    end.z_q -= by_end;
+    end.z_start -= by_start;
+  }
+
+  // The contact closes after the share s of the step, with w = x there.
+  static void close(const PlaneContactLaw& law, double N_begin, double dN, const Vector2d& d,
+                    const Vector2d& y, StepEnd& end) {
+    const double s = -N_begin / dN, k = law.k_t, N_end = N_begin + dN, h = law.mu * N_end / k;
+    const double speed = d.norm();
+    const Vector2d elastic = (1 - s) * d;
+    Eigen::Matrix<double, 2, 3> by_end, by_start;
+    Vector2d stretch;
+    end.open_share = s;
+    if (elastic.norm() < h) {
+      stretch = elastic;
+      const Vector2d by_s = -law.k_n / dN * d;  // of the stretch, by the share s of a change of x_n
+      by_end << (1 - s) * Eigen::Matrix2d::Identity(), -s * by_s;
+      by_start << -(1 - s) * Eigen::Matrix2d::Identity(), -(1 - s) * by_s;
+      end.stick_share = 1 - s;
+    } else {
+      const Vector2d n = speed > 0 ? Vector2d(d / speed) : Vector2d(1, 0), t = quarter_turn(n);
+      stretch = h * n;
+      const Eigen::Matrix2d by_d =
+          speed > 0 ? Eigen::Matrix2d(h / speed * t * t.transpose()) : Eigen::Matrix2d::Zero();
+      by_end << by_d, law.mu * law.k_n / k * n;
+      by_start << -by_d, Vector2d(0, 0);
+      // h grows from 0: the integral of h (|d| - h').
+      end.dissipated = 0.5 * k * h * ((1 - s) * speed - h);
+    }
+    end.dz = d + y - stretch;
+    set(k, stretch, by_end, by_start, end);
+  }
+
+  PlaneContactLaw law_;
+};
+
 class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw>, public PlaneFriction {
  public:
   Contact3d() : KeyedPart(contact_3d_keys()) {}
@@ -213,119 +327,14 @@ class Contact3d final : public scene::file::KeyedPart<OffsetOption, PlainLaw>, p
     return contact_3d_force(h, u, fields, angles);
   }
 
-  int slider_direction(int k) const override { return k; }
-
-  void memory_at(Fields fields, In q, In f, Out z) const override {
-    z.head<2>() = q.head<2>() - f.head<2>() / fields[contact_field::tangential_stiffness];
+  std::unique_ptr<TimeLaw> in_time(Fields fields) const override {
+    return std::make_unique<Contact3dInTime>(plane_contact_law(fields));
   }
-
-  void begin(Fields fields, In q, Out z, StepEnd& at) const override {
-    const PlaneContactLaw law = plane_contact_law(fields);
-    const double N = law.load(q[plane_normal]), limit = law.mu * N;
-    const Vector2d elastic = law.k_t * (q.head<2>() - z.head<2>());
-    const double size = elastic.norm();
-    at.f.head<2>() = size > limit ? Vector2d(limit / size * elastic) : elastic;
-    at.f[plane_normal] = N - std::max(law.N_0, 0.0);
-    at.f_q.setZero();
-    at.f_z.setZero();
-    if (N > 0) {
-      at.f_q.diagonal() << law.k_t, law.k_t, law.k_n;
-      at.f_z.topRows<2>().diagonal().setConstant(-law.k_t);
-    }
-    if (size > limit) z.head<2>() = q.head<2>() - at.f.head<2>() / law.k_t;
+  std::vector<Slider> sliders(Fields) const override {
+    const Eigen::RowVectorXd x = Eigen::RowVectorXd::Unit(3, 0), y = Eigen::RowVectorXd::Unit(3, 1);
+    return {{0, 0, x, x, 0, {}}, {1, 1, y, y, 0, {}}};
   }
-
-  // Along the step the radius and N are linear: the contact opens or closes once at most.
-  void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const override {
-    const PlaneContactLaw law = plane_contact_law(fields);
-    const double k = law.k_t, ratio = law.mu * law.k_n / k;
-    const Vector2d d = dq.head<2>(), y = start.f.head<2>() / k;
-    const double N_begin = law.N_0 + law.k_n * start.q[plane_normal], dN = law.k_n * dq[plane_normal];
-    const double N_end = N_begin + dN;
-    clear(end);
-    end.f[plane_normal] = std::max(N_end, 0.0) - std::max(law.N_0, 0.0);
-    end.z_q.leftCols<2>().setIdentity();
-    if (N_end > 0) end.f_q(plane_normal, plane_normal) = law.k_n;
-    if (N_begin <= 0 && N_end <= 0) {  // open
-      end.dz = d + y;
-      end.open_share = 1;
-      return;
-    }
-    if (N_begin <= 0) return close(law, N_begin, dN, d, y, end);
-    const double contact = N_end > 0 ? 1 : N_begin / (N_begin - N_end);
-    const Stretch at(y, d, law.mu * N_begin / k, law.mu * dN / k, contact);
-    end.stick_share = law.mu > 0 ? at.onset : 0;
-    end.open_share = 1 - contact;
-    end.dissipated = k * at.dissipated;
-    if (contact < 1) {
-      end.dz = d + y;
-      return;
-    }
-    Eigen::Matrix<double, 2, 3> by_end, by_start;
-    by_end << at.by_d, ratio * at.by_e;
-    by_start << at.by_y - at.by_d, ratio * (at.by_h - at.by_e);
-    end.dz = d + y - at.y;
-    set(k, at.y, by_end, by_start, end);
-    end.f_z.topRows<2>() = -k * at.by_y;
-    end.z_z = at.by_y;
-  }
-
-  double stored(Fields fields, In q, In z) const override {
-    const PlaneContactLaw law = plane_contact_law(fields);
-    const double x = q[plane_normal];
-    const double energy = 0.5 * law.k_t * (q.head<2>() - z.head<2>()).squaredNorm();
-    if (law.k_n == 0) return energy;
-    const double touch = -law.N_0 / law.k_n;  // where N = 0
-    if (law.N_0 <= 0) return energy + (x > touch ? 0.5 * law.k_n * (x - touch) * (x - touch) : 0);
-    return energy + (x > touch ? 0.5 * law.k_n * x * x : law.N_0 * (0.5 * touch - x));
-  }
-
- private:
-  static void clear(StepEnd& end) {
-    for (Eigen::MatrixXd* m : {&end.f_q, &end.f_z, &end.f_start, &end.z_q, &end.z_z, &end.z_start})
-      m->setZero();
-    end.f.setZero();
-    end.dz.setZero();
-    end.dissipated = end.stick_share = end.open_share = 0;
-  }
-  // The force k y and the memory x - y at the end.
-  static void set(double k, const Vector2d& y, const Eigen::Matrix<double, 2, 3>& by_end,
-                  const Eigen::Matrix<double, 2, 3>& by_start, StepEnd& end) {
-    end.f.head<2>() = k * y;
-    end.f_q.topRows<2>() = k * by_end;
-    end.f_start.topRows<2>() = k * by_start;
-    end.z_q -= by_end;
-    end.z_start -= by_start;
-  }
-
-  // The contact closes after the share s of the step, with w = x there.
-  static void close(const PlaneContactLaw& law, double N_begin, double dN, const Vector2d& d,
-                    const Vector2d& y, StepEnd& end) {
-    const double s = -N_begin / dN, k = law.k_t, N_end = N_begin + dN, h = law.mu * N_end / k;
-    const double speed = d.norm();
-    const Vector2d elastic = (1 - s) * d;
-    Eigen::Matrix<double, 2, 3> by_end, by_start;
-    Vector2d stretch;
-    end.open_share = s;
-    if (elastic.norm() < h) {
-      stretch = elastic;
-      const Vector2d by_s = -law.k_n / dN * d;  // of the stretch, by the share s of a change of x_n
-      by_end << (1 - s) * Eigen::Matrix2d::Identity(), -s * by_s;
-      by_start << -(1 - s) * Eigen::Matrix2d::Identity(), -(1 - s) * by_s;
-      end.stick_share = 1 - s;
-    } else {
-      const Vector2d n = speed > 0 ? Vector2d(d / speed) : Vector2d(1, 0), t = quarter_turn(n);
-      stretch = h * n;
-      const Eigen::Matrix2d by_d =
-          speed > 0 ? Eigen::Matrix2d(h / speed * t * t.transpose()) : Eigen::Matrix2d::Zero();
-      by_end << by_d, law.mu * law.k_n / k * n;
-      by_start << -by_d, Vector2d(0, 0);
-      // h grows from 0: the integral of h (|d| - h').
-      end.dissipated = 0.5 * k * h * ((1 - s) * speed - h);
-    }
-    end.dz = d + y - stretch;
-    set(k, stretch, by_end, by_start, end);
-  }
+  const PlaneFriction* plane_friction() const override { return this; }
 };
 
 }  // namespace

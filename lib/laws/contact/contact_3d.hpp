@@ -28,7 +28,7 @@
 // (N). Directions: tangential_1, tangential_2, orthogonal to one another, and normal, positive into the
 // contact.
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 
 namespace arcslip::elements {
 

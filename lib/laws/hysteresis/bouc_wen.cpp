@@ -70,6 +70,52 @@ struct Midpoint {
   double middle, dz, z_q, z_z;
 };
 
+class BoucWenInTime final : public TimeLaw {
+ public:
+  explicit BoucWenInTime(const BoucWenFields& at) : at_(at) {}
+
+  void memory_at(In q, In f, Out z) override {
+    if (at_.a < 1) z[0] = std::clamp((f[0] / at_.k - at_.a * q[0]) / (1 - at_.a), -at_.z_y, at_.z_y);
+  }
+  void begin(In q, Out z, StepEnd& end) override {
+    z[0] = std::clamp(z[0], -at_.z_y, at_.z_y);
+    end.f[0] = at_.k * (at_.a * q[0] + (1 - at_.a) * z[0]);
+    end.f_q(0, 0) = at_.a * at_.k;
+    end.f_z(0, 0) = (1 - at_.a) * at_.k;
+  }
+  void step(const StepStart& start, In dq, StepEnd& end) override {
+    const double part = at_.z_y / at_.n;
+    double z = start.z[0], rest = dq[0], loss = 0;
+    end.z_q.setZero();
+    end.z_z.setOnes();
+    while (rest != 0) {
+      const double way = std::clamp(rest, -part, part);
+      const Midpoint step(at_, z, way);
+      rest -= way;
+      loss += step.middle * (way - step.dz);
+      z += step.dz;
+      end.z_q(0, 0) = step.z_q;
+      end.z_z(0, 0) *= step.z_z;
+      if (std::abs(step.dz) > eps * at_.z_y) continue;
+      loss += step.middle * rest;  // z has come to its bound
+      break;
+    }
+    end.dz[0] = z - start.z[0];
+    end.f[0] = at_.k * (at_.a * (start.q[0] + dq[0]) + (1 - at_.a) * z);
+    end.f_q(0, 0) = at_.k * (at_.a + (1 - at_.a) * end.z_q(0, 0));
+    end.f_z = (1 - at_.a) * at_.k * end.z_z;
+    end.z_start = -end.z_q;  // of the way dq alone
+    end.f_start = -(1 - at_.a) * at_.k * end.z_q;
+    end.dissipated = (1 - at_.a) * at_.k * loss;
+  }
+  double stored(In q, In z) override {
+    return 0.5 * at_.k * (at_.a * q[0] * q[0] + (1 - at_.a) * z[0] * z[0]);
+  }
+
+ private:
+  BoucWenFields at_;
+};
+
 class BoucWen final : public PlainLaw, public Hysteresis {
  public:
   std::string_view name() const override { return "bouc_wen"; }
@@ -107,47 +153,10 @@ class BoucWen final : public PlainLaw, public Hysteresis {
     return f;
   }
 
-  void memory_at(Fields fields, In q, In f, Out z) const override {
-    const BoucWenFields at(fields);
-    if (at.a < 1) z[0] = std::clamp((f[0] / at.k - at.a * q[0]) / (1 - at.a), -at.z_y, at.z_y);
+  std::unique_ptr<TimeLaw> in_time(Fields fields) const override {
+    return std::make_unique<BoucWenInTime>(BoucWenFields(fields));
   }
-  void begin(Fields fields, In q, Out z, StepEnd& end) const override {
-    const BoucWenFields at(fields);
-    z[0] = std::clamp(z[0], -at.z_y, at.z_y);
-    end.f[0] = at.k * (at.a * q[0] + (1 - at.a) * z[0]);
-    end.f_q(0, 0) = at.a * at.k;
-    end.f_z(0, 0) = (1 - at.a) * at.k;
-  }
-  void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const override {
-    const BoucWenFields at(fields);
-    const double part = at.z_y / at.n;
-    double z = start.z[0], rest = dq[0], loss = 0;
-    end.z_q.setZero();
-    end.z_z.setOnes();
-    while (rest != 0) {
-      const double way = std::clamp(rest, -part, part);
-      const Midpoint step(at, z, way);
-      rest -= way;
-      loss += step.middle * (way - step.dz);
-      z += step.dz;
-      end.z_q(0, 0) = step.z_q;
-      end.z_z(0, 0) *= step.z_z;
-      if (std::abs(step.dz) > eps * at.z_y) continue;
-      loss += step.middle * rest;  // z has come to its bound
-      break;
-    }
-    end.dz[0] = z - start.z[0];
-    end.f[0] = at.k * (at.a * (start.q[0] + dq[0]) + (1 - at.a) * z);
-    end.f_q(0, 0) = at.k * (at.a + (1 - at.a) * end.z_q(0, 0));
-    end.f_z = (1 - at.a) * at.k * end.z_z;
-    end.z_start = -end.z_q;  // of the way dq alone
-    end.f_start = -(1 - at.a) * at.k * end.z_q;
-    end.dissipated = (1 - at.a) * at.k * loss;
-  }
-  double stored(Fields fields, In q, In z) const override {
-    const BoucWenFields at(fields);
-    return 0.5 * at.k * (at.a * q[0] * q[0] + (1 - at.a) * z[0] * z[0]);
-  }
+  const Hysteresis* hysteresis() const override { return this; }
 
   double bound(Fields fields) const override { return BoucWenFields(fields).z_y; }
   double rate(Fields fields, double x) const override {

@@ -21,7 +21,7 @@
 // Fields: stiffness k (N/m), elastic_share a, yield_displacement z_y (m), exponent n, shape s.
 // Sources: Bouc 1967; Wen 1976; Ismail, Ikhouane & Rodellar 2009.
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 
 namespace arcslip::elements {
 

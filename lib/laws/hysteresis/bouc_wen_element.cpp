@@ -42,7 +42,7 @@ class BoucWenElement final : public Element {
     samples_.values(slope_, dq_);
     // dz/dtheta - rate dq/dtheta
     each([](const BoucWenRate& r, double dq) { return r.rate * dq; });
-    project(F_.tail(c));
+    samples_.coefficients(values_, F_.tail(c));
     series_slope(h_, u.tail(c), slope_);
     F_.tail(c) = slope_ - F_.tail(c);
     if (!h_.odd) F_[c] += held_mean * u[c];
@@ -85,7 +85,7 @@ class BoucWenElement final : public Element {
         return r.share > 0 ? r.power * std::log(r.share) * r.turn * dq : 0;
       });
     if (field == 4) each([&](const BoucWenRate& r, double dq) { return r.power * (r.turn - 1) / at.s * dq; });
-    if (field >= 2) project(dF.tail(c));
+    if (field >= 2) samples_.coefficients(values_, dF.tail(c));
   }
 
  private:
@@ -94,17 +94,10 @@ class BoucWenElement final : public Element {
     const BoucWenFields at(fields_);
     for (Eigen::Index s = 0; s < z_.size(); ++s) values_[s] = value(BoucWenRate(at, z_[s], dq_[s]), dq_[s]);
   }
-  double factor() const { return (h_.odd ? 2 : 1) / std::numbers::pi * samples_.weight(); }
-  void project(Out coefficients) const {
-    coefficients.setZero();
-    samples_.project(values_, coefficients);
-    coefficients *= factor();
-    if (!h_.odd) coefficients[0] *= 0.5;
-  }
   void weigh() {
     samples_.moments(values_, moments_);
     block_.setZero();
-    moments_.add_to(block_, factor());
+    moments_.add_to(block_, samples_.factor());
     if (!h_.odd) block_.row(0) *= 0.5;
   }
 

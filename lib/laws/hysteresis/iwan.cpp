@@ -1,8 +1,10 @@
 #include <arcslip/laws/hysteresis/iwan.hpp>
 
 #include <arcslip/laws/hysteresis/iwan_power_law.hpp>
+#include <arcslip/laws/hysteresis/jenkins.hpp>
 #include <arcslip/laws/hysteresis/masing_element.hpp>
 #include <arcslip/laws/offset_option.hpp>
+#include <arcslip/laws/sampled_automata.hpp>
 #include <arcslip/scene/keys/study_keys.hpp>
 
 #include <algorithm>
@@ -24,7 +26,7 @@ constexpr std::array<file::Word<Distribution>, 3> distributions = {
 
 struct IwanOptions {
   Distribution distribution = Distribution::uniform;
-  std::vector<Slider> table;
+  std::vector<IwanSlider> table;
   int sliders = 100;
   friend bool operator==(const IwanOptions&, const IwanOptions&) = default;
 };
@@ -165,7 +167,8 @@ class Iwan final : public Law {
   double stiffness(Fields fields, int, double) const override { return sums(fields).first; }
   bool limited_by(int field) const override { return field == 1; }
 
-  std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling&) const override {
+  std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling& sampling) const override {
+    if (!sampling.exact) return sampled_automata(*this, harmonics, sampling.samples);
     return masing(harmonics);
   }
   std::unique_ptr<Corners> corners(const Harmonics& harmonics) const override {
@@ -177,80 +180,11 @@ class Iwan final : public Law {
     return f;
   }
 
-  int slider_direction(int) const override { return 0; }
-
-  // As after a first loading to f: all sliders have been moved by s, up to their limits.
-  void memory_at(Fields fields, In q, In f, Out z) const override {
-    const auto force = [&](double s) {
-      double sum = 0;
-      each(fields, [&](int, double k, double p) { sum += std::min(k * s, p); });
-      return sum;
-    };
-    double low = 0, high = 0;
-    each(fields, [&](int, double k, double p) { high = k > 0 ? std::max(high, p / k) : high; });
-    for (int i = 0; i < 100; ++i) {
-      const double middle = 0.5 * (low + high);
-      (force(middle) < std::abs(f[0]) ? low : high) = middle;
-    }
-    each(fields, [&](int j, double k, double p) {
-      z[j] = q[0] - (k > 0 ? std::copysign(std::min(high, p / k), f[0]) : 0);
-    });
-  }
-
-  void begin(Fields fields, In q, Out z, StepEnd& at) const override {
-    at.f.setZero();
-    at.f_q.setZero();
-    each(fields, [&](int j, double k, double p) {
-      const double elastic = k * (q[0] - z[j]), f = std::clamp(elastic, -p, p);
-      at.f[0] += f;
-      at.f_q(0, 0) += k;
-      at.f_z(0, j) = -k;
-      if (f != elastic) z[j] = q[0] - f / k;
-    });
-  }
-
-  void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const override {
-    end.f.setZero();
-    end.f_q.setZero();
-    end.dissipated = end.stick_share = 0;
-    const double sum = sums(fields).first;
-    each(fields, [&](int j, double k, double p) {
-      const double before = std::clamp(k * (start.q[0] - start.z[j]), -p, p), elastic = before + k * dq[0];
-      const bool sticks = std::abs(elastic) < p;
-      const double f = sticks ? elastic : std::copysign(p, elastic), way = k > 0 ? (f - before) / k : 0;
-      const double slip = sticks ? 0 : dq[0] - way;
-      end.f[0] += f;
-      end.f_q(0, 0) += sticks ? k : 0;
-      end.f_z(0, j) = sticks ? -k : 0;
-      end.z_q(j, 0) = sticks ? 0 : 1;
-      end.z_z(j, j) = sticks ? 1 : 0;
-      end.dz[j] = slip;
-      end.dissipated += 0.5 * (before + f) * slip;
-      if (p > 0)
-        end.stick_share += k / sum * (slip == 0 ? 1 : std::abs(way) / (std::abs(way) + std::abs(slip)));
-    });
-  }
-
-  double stored(Fields fields, In q, In z) const override {
-    double sum = 0;
-    each(fields, [&](int j, double k, double) { sum += 0.5 * k * (q[0] - z[j]) * (q[0] - z[j]); });
-    return sum;
-  }
-
   std::optional<std::vector<Automaton>> automata(Fields fields) const override {
     std::vector<Automaton> all;
     each(fields, [&](int j, double k, double p) {
-      Automaton& contact = all.emplace_back(j);
-      contact.weight = k;
-      if (p <= 0) {
-        contact.add("free", 0, 0, 0).follows(1, 0, 0);
-        return;
-      }
-      Mode& stick = contact.add("stick", k, -k, 0);
-      stick.leaves_where(-k, 0, k, p, 1);
-      stick.leaves_where(k, 0, -k, p, 2);
-      contact.add("slip+", 0, 0, p).follows(1, -p / k, 1).leaves_where(0, 1, 0, 0, 0);
-      contact.add("slip-", 0, 0, -p).follows(1, p / k, -1).leaves_where(0, -1, 0, 0, 0);
+      all.push_back(jenkins_automaton(j, k, p));
+      all.back().weight = k;
     });
     return all;
   }

@@ -15,7 +15,7 @@
 // falls as sliders^-2. FrictionState: the stick share is that of the stiffness of the sliders that stick,
 // averaged over the period; slip of single sliders is not reported.
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 
 #include <functional>
 #include <utility>
@@ -27,14 +27,14 @@ namespace arcslip::elements {
 const LawType& iwan();
 
 /// Stiffness, N/m, and slip limit, N, both above 0.
-using Slider = std::pair<double, double>;
+using IwanSlider = std::pair<double, double>;
 
 class MasingElement;
 
 /// fields: stiffness, slip_force and, of four, exponent and beta.
 std::unique_ptr<MasingElement> make_iwan_power_law(const Harmonics& harmonics, bool uniform);
 /// fields: stiffness_factor, slip_factor. Sliders in any order.
-std::unique_ptr<MasingElement> make_iwan_table(const Harmonics& harmonics, std::vector<Slider> sliders);
+std::unique_ptr<MasingElement> make_iwan_table(const Harmonics& harmonics, std::vector<IwanSlider> sliders);
 
 /// The sliders that begin to slip at a corner, in the order of their slip displacements.
 struct IwanOnsets {

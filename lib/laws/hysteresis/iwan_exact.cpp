@@ -158,7 +158,7 @@ class PowerLawElement final : public MasingElement {
 // of a branch slider j sticks up to the angle theta_j, so that sums of exp(i k theta_j) hold all integrals.
 class TableElement final : public MasingElement {
  public:
-  TableElement(const Harmonics& h, const std::vector<Slider>& sliders)
+  TableElement(const Harmonics& h, const std::vector<IwanSlider>& sliders)
       : MasingElement(h),
         length_(h.order),
         stiffness_(sliders.size()),
@@ -325,9 +325,9 @@ std::unique_ptr<MasingElement> make_iwan_power_law(const Harmonics& harmonics, b
   return std::make_unique<PowerLawElement>(harmonics, uniform);
 }
 
-std::unique_ptr<MasingElement> make_iwan_table(const Harmonics& harmonics, std::vector<Slider> sliders) {
+std::unique_ptr<MasingElement> make_iwan_table(const Harmonics& harmonics, std::vector<IwanSlider> sliders) {
   std::sort(sliders.begin(), sliders.end(),
-            [](const Slider& a, const Slider& b) { return a.second / a.first < b.second / b.first; });
+            [](const IwanSlider& a, const IwanSlider& b) { return a.second / a.first < b.second / b.first; });
   return std::make_unique<TableElement>(harmonics, sliders);
 }
 

@@ -2,6 +2,7 @@
 
 #include <arcslip/laws/hysteresis/friction_phases.hpp>
 #include <arcslip/laws/offset_option.hpp>
+#include <arcslip/laws/sampled_automata.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +61,7 @@ class Jenkins final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
 
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling& sampling) const override {
     return sampling.exact ? make_jenkins(harmonics, offset_)
-                          : make_sampled_jenkins(harmonics, sampling.samples, offset_);
+                          : sampled_automata(*this, harmonics, sampling.samples);
   }
 
   std::unique_ptr<Corners> corners(const Harmonics& harmonics) const override {
@@ -96,56 +97,9 @@ class Jenkins final : public scene::file::KeyedPart<OffsetOption, PlainLaw> {
     return force;
   }
 
-  int slider_direction(int) const override { return 0; }
-  std::optional<double> slider_room(Fields fields, int) const override {
-    if (offset_ == Offset::centred) return {};
-    return jenkins_limit(fields) / fields[jenkins_field::stiffness];
-  }
-
-  void memory_at(Fields fields, In q, In f, Out z) const override {
-    z[0] = q[0] - f[0] / fields[jenkins_field::stiffness];
-  }
-
-  void begin(Fields fields, In q, Out z, StepEnd& at) const override {
-    const double k = fields[jenkins_field::stiffness], elastic = k * (q[0] - z[0]), p = jenkins_limit(fields);
-    at.f[0] = std::clamp(elastic, -p, p);
-    at.f_q(0, 0) = k;
-    at.f_z(0, 0) = -k;
-    if (at.f[0] != elastic) z[0] = q[0] - at.f[0] / k;
-  }
-
-  void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const override {
-    const double k = fields[jenkins_field::stiffness], p = jenkins_limit(fields), f = start.f[0] + k * dq[0];
-    const bool sticks = std::abs(f) < p;
-    end.f[0] = sticks ? f : std::copysign(p, f);
-    end.f_q(0, 0) = sticks ? k : 0;
-    end.f_z(0, 0) = sticks ? -k : 0;
-    end.z_q(0, 0) = sticks ? 0 : 1;
-    end.z_z(0, 0) = sticks ? 1 : 0;
-    const double way = (end.f[0] - start.f[0]) / k, slip = sticks ? 0 : dq[0] - way;
-    end.dz[0] = slip;
-    end.dissipated = 0.5 * (start.f[0] + end.f[0]) * slip;
-    end.stick_share = slip == 0 ? 1 : std::abs(way) / (std::abs(way) + std::abs(slip));
-    if (p <= 0) end.stick_share = 0;
-  }
-
-  double stored(Fields fields, In q, In z) const override {
-    const double stretch = q[0] - z[0];
-    return 0.5 * fields[jenkins_field::stiffness] * stretch * stretch;
-  }
-
   std::optional<std::vector<Automaton>> automata(Fields fields) const override {
-    const double k = fields[jenkins_field::stiffness], p = jenkins_limit(fields);
-    Automaton contact(0);
-    if (p <= 0) {
-      contact.add("free", 0, 0, 0).follows(1, 0, 0);
-    } else {
-      Mode& stick = contact.add("stick", k, -k, 0);
-      stick.leaves_where(-k, 0, k, p, 1);
-      stick.leaves_where(k, 0, -k, p, 2);
-      contact.add("slip+", 0, 0, p).follows(1, -p / k, 1).leaves_where(0, 1, 0, 0, 0);
-      contact.add("slip-", 0, 0, -p).follows(1, p / k, -1).leaves_where(0, -1, 0, 0, 0);
-    }
+    Automaton contact = jenkins_automaton(0, fields[jenkins_field::stiffness], jenkins_limit(fields));
+    contact.offset = offset_;
     return std::vector{contact};
   }
 
@@ -159,6 +113,20 @@ std::shared_ptr<const Law> Jenkins::law(const scene::Settings& options) const {
 }
 
 }  // namespace
+
+Automaton jenkins_automaton(int memory, double k, double p) {
+  Automaton contact(memory);
+  if (p <= 0) {
+    contact.add("free", 0, 0, 0).follows(1, 0, 0);
+    return contact;
+  }
+  Mode& stick = contact.add("stick", k, -k, 0);
+  stick.leaves_where(-k, 0, k, p, 1);
+  stick.leaves_where(k, 0, -k, p, 2);
+  contact.add("slip+", 0, 0, p).follows(1, -p / k, 1).leaves_where(0, 1, 0, 0, 0);
+  contact.add("slip-", 0, 0, -p).follows(1, p / k, -1).leaves_where(0, -1, 0, 0, 0);
+  return contact;
+}
 
 const PlainLaw& jenkins() {
   static const Jenkins law(Offset::centred);

@@ -18,11 +18,10 @@
 // (laws/slider_offset.hpp). Centred, w = (max x + min x)/2.
 //
 // Fields: stiffness k_d (N/m), friction_coefficient mu (-), normal_load F_n (N).
+//
+// In time the slider z rests while |k_d (q - z)| < p, and follows q at |f| = p.
 
-// In time the slider z rests while |k_d (q - z)| < p, and follows q at |f| = p. A step in which q moves one
-// way is exact: f = clamp(f_0 + k_d dq, -p, p).
-
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 #include <arcslip/laws/slider_offset.hpp>
 
 namespace arcslip::elements {
@@ -35,6 +34,9 @@ enum { stiffness, friction_coefficient, normal_load };
 const PlainLaw& jenkins();
 
 std::unique_ptr<Element> make_jenkins(const Harmonics& harmonics, Offset offset = Offset::centred);
+
+/// A slider with a spring of stiffness k (N/m) and the slip limit p (N), as an automaton.
+Automaton jenkins_automaton(int memory, double k, double p);
 
 /// Onset of slip at a reversal of its motion w: stuck since the reversal theta_a, where f = s_a p, it reaches
 /// s p just at the reversal theta_r. Angles theta_a, theta_r;
@@ -49,11 +51,5 @@ std::unique_ptr<Element> make_jenkins(const Harmonics& harmonics, Offset offset 
 ///
 ///   h = s k_d w(theta_r) - p,  N
 std::unique_ptr<Corners> make_jenkins_corners(const Harmonics& harmonics, Offset offset = Offset::centred);
-
-/// The same law sampled at `samples` equal intervals of the period (alternating frequency/time, Cameron &
-/// Griffin 1989), with the exact Jacobian of the sampled force. For comparison; its error stalls near
-/// samples^-2.
-std::unique_ptr<Element> make_sampled_jenkins(const Harmonics& harmonics, int samples,
-                                              Offset offset = Offset::centred);
 
 }  // namespace arcslip::elements

@@ -10,7 +10,7 @@
 // Coefficients are exact (piecewise_linear.hpp). Fields: stiffness k_1, stiffness_beyond k_2 (N/m), corner c
 // (m).
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 
 namespace arcslip::elements {
 

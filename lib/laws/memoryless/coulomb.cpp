@@ -98,6 +98,20 @@ class CoulombElement final : public Element {
   Eigen::MatrixXd J_;
 };
 
+class CoulombInTime final : public TimeLaw {
+ public:
+  explicit CoulombInTime(double limit) : limit_(limit) {}
+  void begin(In, Out, StepEnd& at) override { at.f[0] = 0; }
+  void step(const StepStart&, In dq, StepEnd& end) override {
+    end.f[0] = limit_ * sign(dq[0]);
+    end.dissipated = limit_ * std::abs(dq[0]);
+  }
+  double stored(In, In) override { return 0; }
+
+ private:
+  double limit_;
+};
+
 class Coulomb final : public PlainLaw {
  public:
   std::string_view name() const override { return "coulomb"; }
@@ -120,12 +134,9 @@ class Coulomb final : public PlainLaw {
     return f;
   }
 
-  void begin(Fields, In, Out, StepEnd& at) const override { at.f[0] = 0; }
-  void step(Fields fields, const StepStart&, In dq, StepEnd& end) const override {
-    end.f[0] = coulomb_limit(fields) * sign(dq[0]);
-    end.dissipated = coulomb_limit(fields) * std::abs(dq[0]);
+  std::unique_ptr<TimeLaw> in_time(Fields fields) const override {
+    return std::make_unique<CoulombInTime>(coulomb_limit(fields));
   }
-  double stored(Fields, In, In) const override { return 0; }
 };
 
 }  // namespace

@@ -15,7 +15,7 @@
 //
 // Fields: friction_coefficient mu, normal_load N (N).
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 
 namespace arcslip::elements {
 

@@ -1,5 +1,6 @@
 #include <arcslip/laws/memoryless/formula_law.hpp>
 
+#include <arcslip/formula/facts.hpp>
 #include <arcslip/laws/memoryless/kink_finder.hpp>
 #include <arcslip/laws/memoryless/kinked_element.hpp>
 
@@ -18,7 +19,13 @@ struct FormulaScratch final : Scratch {
   formula::Evaluator evaluator;
   std::vector<formula::InputValues> inputs;
   std::vector<double*> values;
-  std::vector<formula::Derivative> tangent, by_fields;
+
+  struct Program {
+    std::optional<std::size_t> number;
+    std::vector<formula::Derivative> derivatives;
+  };
+  Program& of(Wanted wanted) { return programs[static_cast<std::size_t>(wanted)]; }
+  std::array<Program, 3> programs;
 };
 
 constexpr double zero = 0;
@@ -29,6 +36,12 @@ void extend(std::optional<formula::Degree>& all, const std::optional<formula::De
     all = formula::Degree{std::max(all->motion, own->motion), std::max(all->orders, own->orders)};
   else
     all.reset();
+}
+
+std::vector<std::string> names_of(std::span<const scene::Field> fields) {
+  std::vector<std::string> names;
+  for (const scene::Field& field : fields) names.emplace_back(field.name);
+  return names;
 }
 
 }  // namespace
@@ -42,19 +55,20 @@ std::vector<std::string> motion_names(int directions) {
   return names;
 }
 
-formula::InputOf FormulaInputs::names(std::span<const scene::Field> own) const {
+formula::InputOf FormulaInputs::names(std::vector<std::string> own) const {
   std::vector<std::string> all = motion_names(directions);
-  for (const scene::Field& field : own) all.emplace_back(field.name);
+  all.insert(all.end(), own.begin(), own.end());
   return formula::names_of(std::vector<std::string_view>(all.begin(), all.end()));
 }
 
 FormulaLaw::FormulaLaw(std::string_view name, std::string_view help, const std::vector<std::string>& forces,
-                       std::span<const scene::Field> fields)
+                       std::span<const scene::Field> fields, Work work, const std::vector<std::string>& names)
     : name_(name),
       help_(help),
       fields_(fields),
       inputs_{static_cast<int>(forces.size()), static_cast<int>(fields.size())},
-      formula_(forces, inputs_.names(fields)),
+      formula_(forces, inputs_.names(names.empty() ? names_of(fields) : names),
+               names.empty() ? formula::Formula::Author::user : formula::Formula::Author::program),
       degree_(formula::Degree()),
       degree_of_pieces_(formula::Degree()) {
   const int d = inputs_.directions;
@@ -71,7 +85,7 @@ FormulaLaw::FormulaLaw(std::string_view name, std::string_view help, const std::
   }
   roles[static_cast<std::size_t>(inputs_.phase())] = formula::Role::phase;
   phase_dependent_ = formula_.uses(inputs_.phase());
-  potential_ = d == 1 && !rate_dependent_ && !phase_dependent_;
+  potential_ = (d == 1 || work == Work::stored) && !rate_dependent_ && !phase_dependent_;
   antisymmetric_ = !phase_dependent_;
   switches_ = formula::switches(formula_, roles);
   may_jump_ = formula::may_jump(formula_, roles);
@@ -117,13 +131,15 @@ void FormulaLaw::sample_motion(Fields fields, const SampledMotion& motion, Wante
       scratch->values.push_back(at.f.col(i).data());
       for (int j = 0; j < d; ++j) {
         const auto expression = static_cast<std::size_t>(i);
-        scratch->tangent.push_back({expression, inputs_.displacement(j), at.f_q.col(j * d + i).data()});
+        auto& tangent = scratch->of(Wanted::tangent).derivatives;
+        tangent.push_back({expression, inputs_.displacement(j), at.f_q.col(j * d + i).data()});
         if (rate_dependent_)
-          scratch->tangent.push_back({expression, inputs_.velocity(j), at.f_v.col(j * d + i).data()});
+          tangent.push_back({expression, inputs_.velocity(j), at.f_v.col(j * d + i).data()});
       }
       for (int k = 0; k < inputs_.fields; ++k)
-        scratch->by_fields.push_back(
-            {static_cast<std::size_t>(i), inputs_.field(k), at.f_field.col(k * d + i).data()});
+        scratch->of(Wanted::by_fields)
+            .derivatives.push_back(
+                {static_cast<std::size_t>(i), inputs_.field(k), at.f_field.col(k * d + i).data()});
     }
   }
   auto& inputs = scratch->inputs;
@@ -136,52 +152,53 @@ void FormulaLaw::sample_motion(Fields fields, const SampledMotion& motion, Wante
   }
   set(inputs_.phase(), phase_dependent_ ? motion.phase.data() : &zero, phase_dependent_);
   for (int k = 0; k < inputs_.fields; ++k) set(inputs_.field(k), &fields[static_cast<std::size_t>(k)], false);
-  std::span<const formula::Derivative> derivatives;
-  if (wanted == Wanted::tangent) derivatives = scratch->tangent;
-  if (wanted == Wanted::by_fields) derivatives = scratch->by_fields;
-  scratch->evaluator.compute(inputs, static_cast<std::size_t>(motion.q.rows()), scratch->values, derivatives);
+  FormulaScratch::Program& program = scratch->of(wanted);
+  if (!program.number) program.number = scratch->evaluator.prepare(inputs, program.derivatives);
+  scratch->evaluator.compute(*program.number, inputs, static_cast<std::size_t>(motion.q.rows()),
+                             scratch->values, program.derivatives);
 }
 
-void FormulaLaw::step(Fields fields, const StepStart& start, In dq, StepEnd& end) const {
-  SampledLaw::step(fields, start, dq, end);
-  end.dissipated = 0;
-  if (potential_) return;
-  // The trapezoidal rule, without what is stored.
-  end.dissipated = 0.5 * (start.f + end.f).dot(dq);
-  if (inputs_.directions > 1 || phase_dependent_ || !formula_.uses(inputs_.displacement(0))) return;
-  auto& scratch = static_cast<FormulaScratch&>(*end.sample.scratch);
-  const std::array<double, 2> q = {start.q[0], start.q[0] + dq[0]};
-  std::array<double, 2> f{};
-  const auto input = [&](int k) -> formula::InputValues& {
-    return scratch.inputs[static_cast<std::size_t>(k)];
-  };
-  input(inputs_.displacement(0)) = {q.data(), true};
-  input(inputs_.velocity(0)) = {&zero, false};
+std::optional<std::vector<double>> FormulaLaw::polynomial(Fields fields) const {
+  if (inputs_.directions > 1 || phase_dependent_) return {};
+  std::vector<double> values(static_cast<std::size_t>(inputs_.count()));
   for (int k = 0; k < inputs_.fields; ++k)
-    input(inputs_.field(k)) = {&fields[static_cast<std::size_t>(k)], false};
-  scratch.evaluator.compute(scratch.inputs, 2, std::array{f.data()});
-  end.dissipated -= 0.5 * dq[0] * (f[0] + f[1]);
+    values[static_cast<std::size_t>(inputs_.field(k))] = fields[static_cast<std::size_t>(k)];
+  auto coefficients = formula::polynomial(formula_, 0, inputs_.displacement(0), values);
+  while (coefficients && coefficients->size() > 1 && coefficients->back() == 0) coefficients->pop_back();
+  return coefficients;
 }
 
-double FormulaLaw::force(Fields fields, int direction, std::span<const double> motion) const {
-  std::vector<formula::InputValues> inputs;
-  for (const double& each : motion) inputs.push_back({&each, false});
-  for (const double& each : fields) inputs.push_back({&each, false});
-  std::vector<double*> values(static_cast<std::size_t>(inputs_.directions));
-  double f = 0;
-  values[static_cast<std::size_t>(direction)] = &f;
-  formula::Evaluator(formula_).compute(inputs, 1, values);
-  return f;
+SampledLaw::Shape FormulaLaw::shape(Fields fields, int direction) const {
+  auto coefficients = polynomial(fields);
+  const bool linear = coefficients ? coefficients->size() <= 2 : degree_ && degree_->motion < 2;
+  return {formula_.uses(inputs_.displacement(direction)), linear, degree_.has_value(),
+          std::move(coefficients)};
 }
 
-double FormulaLaw::derivative(Fields fields, int direction, std::span<const double> motion, int input) const {
-  std::vector<formula::InputValues> inputs;
-  for (const double& each : motion) inputs.push_back({&each, false});
-  for (const double& each : fields) inputs.push_back({&each, false});
-  double slope = 0;
-  formula::Evaluator(formula_).compute(
-      inputs, 1, {}, std::array{formula::Derivative{static_cast<std::size_t>(direction), input, &slope}});
-  return slope;
+// Of a force that is a field times the displacement.
+int FormulaLaw::stiffness_field(Fields fields) const {
+  const auto nodes = formula_.nodes();
+  if (inputs_.directions > 1 || nodes.size() != 3 || nodes[2].operation != formula::Operation::multiply)
+    return -1;
+  for (int k = 0; k < inputs_.fields; ++k)
+    if (formula_.uses(inputs_.field(k)) && formula_.uses(inputs_.displacement(0)) &&
+        fields[static_cast<std::size_t>(k)] > 0)
+      return k;
+  return -1;
+}
+
+Traits FormulaLaw::traits(Fields fields, int direction) const {
+  Traits all = SampledLaw::traits(fields, direction);
+  all.stiffness_field = stiffness_field(fields);
+  return all;
+}
+
+std::optional<std::vector<Automaton>> FormulaLaw::automata(Fields fields) const {
+  const auto coefficients = potential_ ? polynomial(fields) : std::nullopt;
+  if (!coefficients || coefficients->size() > 2) return {};
+  Automaton spring(-1);
+  spring.add("linear", coefficients->size() > 1 ? (*coefficients)[1] : 0, 0, coefficients->front());
+  return std::vector{spring};
 }
 
 }  // namespace arcslip::elements

@@ -11,7 +11,7 @@
 // comparisons, if) each piece between them is integrated by itself (kinked_element.hpp).
 //
 // A force along one direction that does not depend on the phase stores the energy of f(q, v = 0); the rest of
-// its work is dissipated, which may be negative. Others store nothing.
+// its work is dissipated, which may be negative. Others store nothing, but for those with Work::stored.
 
 #include <arcslip/formula/evaluator.hpp>
 #include <arcslip/formula/facts.hpp>
@@ -34,17 +34,22 @@ struct FormulaInputs {
   int phase() const { return 2 * directions; }
   int field(int k) const { return 2 * directions + 1 + k; }
   /// Of a name; fields come after the names of the motion, and pi.
-  formula::InputOf names(std::span<const scene::Field> fields) const;
+  formula::InputOf names(std::vector<std::string> fields) const;
 };
 
 /// The names of displacements, velocities and of the phase; no field may have one of them.
 std::vector<std::string> motion_names(int directions);
 
-class FormulaLaw final : public SampledLaw {
+class FormulaLaw : public SampledLaw {
  public:
-  /// name, help and fields must outlive the law; a formula for each direction. Throws formula::FormulaError.
+  /// Of forces along several directions, which may have a potential.
+  enum class Work { dissipated, stored };
+
+  /// name, help and fields must outlive the law; a formula for each direction. names: of the fields in the
+  /// formulas, where they have others there. Throws formula::FormulaError.
   FormulaLaw(std::string_view name, std::string_view help, const std::vector<std::string>& forces,
-             std::span<const scene::Field> fields);
+             std::span<const scene::Field> fields, Work work = Work::dissipated,
+             const std::vector<std::string>& names = {});
 
   std::string_view name() const override { return name_; }
   std::string_view help() const override { return help_; }
@@ -58,21 +63,18 @@ class FormulaLaw final : public SampledLaw {
             .phase_dependent = phase_dependent_,
             .may_jump = may_jump_,
             .approximates = !degree_of_pieces_,
-            .symmetric_step = inputs_.directions == 1};
+            .symmetric_step = inputs_.directions == 1 || potential_};
   }
   void add_kinks(const Harmonics& harmonics, In u, double base_frequency, Fields fields,
                  std::vector<double>& angles) const override;
   std::unique_ptr<Element> element(const Harmonics& harmonics, const Sampling& sampling) const override;
   Traits traits(Fields fields, int direction) const override;
-  double stiffness(Fields fields, int direction, double reach) const override;
   std::optional<std::vector<Automaton>> automata(Fields fields) const override;
 
   int samples(const Harmonics& harmonics) const override;
   void sample(Fields fields, const Eigen::MatrixXd& q, SampledForce& at) const override;  // at rest
   void sample_motion(Fields fields, const SampledMotion& motion, Wanted wanted,
                      SampledForce& at) const override;
-  void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const override;
-  double stored(Fields fields, In q, In) const override;
 
   const FormulaInputs& inputs() const { return inputs_; }
   const formula::Formula& formula() const { return formula_; }
@@ -81,14 +83,13 @@ class FormulaLaw final : public SampledLaw {
   bool has_kinks() const { return !switches_.results().empty(); }
   /// Of the pieces between them; none: they are no polynomials.
   const std::optional<formula::Degree>& degree_of_pieces() const { return degree_of_pieces_; }
-  /// f_i, and its derivative by an input, at one value of each input but the fields.
-  double force(Fields fields, int direction, std::span<const double> motion) const;
-  double derivative(Fields fields, int direction, std::span<const double> motion, int input) const;
+
+ protected:
+  Shape shape(Fields fields, int direction) const override;
 
  private:
   /// The coefficients of f(q), v = 0, of a law along one direction, where it is a polynomial of q alone.
   std::optional<std::vector<double>> polynomial(Fields fields) const;
-  bool uses_displacement(int direction) const;
   int stiffness_field(Fields fields) const;
 
   std::string_view name_, help_;

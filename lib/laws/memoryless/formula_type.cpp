@@ -1,6 +1,7 @@
 #include <arcslip/laws/memoryless/formula_type.hpp>
 
 #include <arcslip/laws/memoryless/formula_law.hpp>
+#include <arcslip/scene/formulas.hpp>
 #include <arcslip/scene/keys/study_keys.hpp>
 
 #include <algorithm>
@@ -157,6 +158,19 @@ void add_fault(const formula::FormulaError& error, const Reading& reading, int d
                      message);
 }
 
+// Of what is added; displacements may be angles, so that any force is right.
+void check_dimensions(const Reading& reading, const OwnFormula& own, const FormulaInputs& inputs) {
+  std::vector<std::string> units(static_cast<std::size_t>(inputs.count()));
+  for (std::size_t k = 0; k < own.parameters.size(); ++k)
+    if (own.parameters[k].unit != "-")
+      units[static_cast<std::size_t>(inputs.field(static_cast<int>(k)))] = own.parameters[k].unit;
+  const std::string fault = scene::dimension_fault(own.law->formula(), units, "");
+  if (fault.empty()) return;
+  const bool one = own.forces.size() == 1;
+  reading.faults.add(reading.keys.find(one ? "force" : "forces").pointer,
+                     "found " + (one ? scene::file::shown(own.forces.front()) : "formulas") + ", " + fault);
+}
+
 void read_formula(const Reading& reading, FormulaOptions& options) {
   const std::size_t before = reading.faults.count();
   std::vector<std::string> forces = read_forces(reading);
@@ -173,6 +187,7 @@ void read_formula(const Reading& reading, FormulaOptions& options) {
     return add_fault(error, reading, displacements, parameters);
   }
   const FormulaInputs inputs{displacements, static_cast<int>(parameters.size())};
+  check_dimensions(reading, *options.own, inputs);
   for (std::size_t k = 0; k < parameters.size(); ++k)
     if (!options.own->law->formula().uses(inputs.field(static_cast<int>(k))))
       reading.faults.add(scene::file::child(reading.keys.find("parameters").pointer, parameters[k].name),

@@ -7,7 +7,7 @@
 // Over several displacements "forces" is a list of a formula for each of q1, q2 ..., whose places are keys of
 // the element, or degrees of freedom of these names. The parameters are its fields.
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 
 #include <string>
 #include <vector>

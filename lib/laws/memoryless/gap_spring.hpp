@@ -13,7 +13,7 @@
 //
 // Coefficients are exact (piecewise_linear.hpp). Fields: stiffness k (N/m), gap g (m).
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 
 namespace arcslip::elements {
 

@@ -63,20 +63,6 @@ double PiecewiseLinearCurve::force(std::size_t j, double q) const {
   return sum;
 }
 
-double PiecewiseLinearCurve::energy(double q) const {
-  std::size_t j = line_at(0);
-  const std::size_t last = line_at(q);
-  double from = 0, sum = 0;
-  const auto go = [&](double to) {
-    sum += 0.5 * (force(j, from) + force(j, to)) * (to - from);
-    from = to;
-  };
-  for (; j < last; ++j) go(corner(j));
-  for (; j > last; --j) go(corner(j - 1));
-  go(q);
-  return sum;
-}
-
 PiecewiseLinearLaw::PiecewiseLinearLaw(PiecewiseLinearShape shape)
     : shapes_{std::move(shape)}, antisymmetric_(is_antisymmetric(shapes_.front())) {}
 
@@ -133,25 +119,6 @@ Eigen::MatrixXd PiecewiseLinearLaw::force_at(const Harmonics& h, In u, Fields fi
     f(static_cast<Eigen::Index>(i), 0) = curve.force(curve.line_at(q), q);
   }
   return f;
-}
-
-void PiecewiseLinearLaw::begin(Fields fields, In q, Out, StepEnd& at) const {
-  set(fields, q[0], at);
-}
-
-void PiecewiseLinearLaw::step(Fields fields, const StepStart& start, In dq, StepEnd& end) const {
-  set(fields, start.q[0] + dq[0], end);
-}
-
-void PiecewiseLinearLaw::set(Fields fields, double q, StepEnd& at) const {
-  const PiecewiseLinearCurve curve(shapes_, fields);
-  const std::size_t j = curve.line_at(q);
-  at.f[0] = curve.force(j, q);
-  at.f_q(0, 0) = curve.slope(j);
-}
-
-double PiecewiseLinearLaw::stored(Fields fields, In q, In) const {
-  return PiecewiseLinearCurve(shapes_, fields).energy(q[0]);
 }
 
 std::optional<std::vector<Automaton>> PiecewiseLinearLaw::automata(Fields fields) const {

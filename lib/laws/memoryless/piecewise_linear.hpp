@@ -55,14 +55,9 @@ class PiecewiseLinearLaw final : public Law {
   std::unique_ptr<Corners> corners(const Harmonics& harmonics) const override;
   Eigen::MatrixXd force_at(const Harmonics& harmonics, In u, Fields fields, Angles angles) const override;
 
-  void begin(Fields fields, In q, Out z, StepEnd& at) const override;
-  void step(Fields fields, const StepStart& start, In dq, StepEnd& end) const override;
-  double stored(Fields fields, In q, In z) const override;
   std::optional<std::vector<Automaton>> automata(Fields fields) const override;
 
  private:
-  void set(Fields fields, double q, StepEnd& at) const;
-
   std::vector<PiecewiseLinearShape> shapes_;  // one, or one for each sign of the last field
   bool antisymmetric_;
 };

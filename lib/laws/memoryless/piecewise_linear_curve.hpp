@@ -23,8 +23,6 @@ class PiecewiseLinearCurve {
   double slope(std::size_t j) const;
   double offset(std::size_t j) const;
   double force(std::size_t j, double q) const;
-  /// Integral of the force from 0.
-  double energy(double q) const;
 
  private:
   Fields fields_;

@@ -5,7 +5,7 @@
 //
 // Coefficients are exact (piecewise_linear.hpp). Fields: factor (-) of all forces, 1 by default.
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 
 #include <utility>
 #include <vector>

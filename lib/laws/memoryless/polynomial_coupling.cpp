@@ -1,11 +1,13 @@
 #include <arcslip/laws/memoryless/polynomial_coupling.hpp>
 
-#include <arcslip/laws/sampled_law.hpp>
+#include <arcslip/laws/memoryless/formula_law.hpp>
 #include <arcslip/scene/keys/study_keys.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -16,6 +18,8 @@ using scene::file::Keys;
 using scene::file::Location;
 using scene::file::Reading;
 
+constexpr std::string_view coupling_name = "polynomial_coupling",
+                           coupling_help = "springs that couple displacements by a polynomial energy";
 constexpr int least_degree = 2, largest_degree = 10;
 constexpr std::size_t most_terms = 1000, most_names = 20;
 constexpr std::string_view allowed_potential = "a list of at least one term with \"powers\" and \"value\"";
@@ -33,50 +37,22 @@ struct Terms {
   friend bool operator==(const Terms&, const Terms&) = default;
 };
 
-double integer_power(double x, int n) {
-  double result = 1;
-  for (; n > 0; --n) result *= x;
-  return result;
-}
-
-class PolynomialCoupling final : public SampledLaw {
+/// Traits and bounds of stiffnesses follow from the terms and their values.
+class CouplingLaw final : public FormulaLaw {
  public:
-  explicit PolynomialCoupling(Terms terms) : terms_(std::move(terms)) {
-    for (const std::string& name : terms_.names) slots_.push_back(name);
-    for (std::size_t t = 0; t < terms_.powers.size(); ++t) {
-      int degree = 0;
-      for (const int p : terms_.powers[t]) degree += p;
-      degrees_.push_back(degree);
-      names_.push_back("v" + std::to_string(t + 1));
-      places_.push_back("/potential/" + std::to_string(t) + "/value");
-    }
-    for (std::size_t t = 0; t < degrees_.size(); ++t)
-      fields_.push_back({.name = names_[t],
-                         .unit = energy_units[degrees_[t] - least_degree],
-                         .lower = -infinity,
-                         .upper = infinity,
-                         .help = "factor of this term of the energy",
-                         .place = places_[t]});
-  }
-  const Terms& terms() const { return terms_; }
+  CouplingLaw(const Terms& terms, const std::vector<std::string>& forces,
+              std::span<const scene::Field> fields, const std::vector<std::string>& names)
+      : FormulaLaw(coupling_name, coupling_help, forces, fields, Work::stored, names), terms_(terms) {}
 
-  std::string_view name() const override { return polynomial_coupling().name(); }
-  std::span<const std::string_view> slots() const override { return slots_; }
-  std::span<const scene::Field> fields(const scene::Settings&) const override { return fields_; }
-
-  Facts facts() const override {
-    const auto even = [](int n) { return n % 2 == 0; };
-    return {.antisymmetric = std::all_of(degrees_.begin(), degrees_.end(), even)};
-  }
   Traits traits(Fields fields, int direction) const override {
     Traits traits;
     traits.stiffness = stiffness(fields, direction, 0);
-    for (std::size_t t = 0; t < degrees_.size(); ++t) {
-      const int own = terms_.powers[t][static_cast<std::size_t>(direction)];
+    for (std::size_t t = 0; t < terms_.powers.size(); ++t) {
+      const int own = terms_.powers[t][static_cast<std::size_t>(direction)], degree = degree_of(t);
       if (fields[t] == 0 || own == 0) continue;
       traits.holds_mean = traits.holds_mean || own % 2 == 0;
-      traits.far_power = std::max(traits.far_power, degrees_[t] - 1.0);
-      if (degrees_[t] == 2) continue;
+      traits.far_power = std::max(traits.far_power, degree - 1.0);
+      if (degree == 2) continue;
       traits.stiffness = infinity;
       traits.several_responses = true;
     }
@@ -85,58 +61,70 @@ class PolynomialCoupling final : public SampledLaw {
   // The sum of a row of the Hessian, which bounds its eigenvalues.
   double stiffness(Fields fields, int direction, double reach) const override {
     double sum = 0;
-    for (std::size_t t = 0; t < degrees_.size(); ++t)
+    for (std::size_t t = 0; t < terms_.powers.size(); ++t)
       if (const int own = terms_.powers[t][static_cast<std::size_t>(direction)]; fields[t] != 0 && own > 0)
-        sum += std::abs(fields[t]) * own * (degrees_[t] - 1) * std::pow(reach, degrees_[t] - 2);
-    return sum;
-  }
-  int samples(const Harmonics& h) const override {
-    return (degrees_.empty() ? 1 : *std::max_element(degrees_.begin(), degrees_.end())) * h.order + 2;
-  }
-
-  void sample(Fields fields, const Eigen::MatrixXd& q, SampledForce& at) const override {
-    const Eigen::Index d = q.cols();
-    at.f.setZero();
-    at.f_q.setZero();
-    for (Eigen::Index s = 0; s < q.rows(); ++s)
-      for (std::size_t t = 0; t < degrees_.size(); ++t)
-        for (Eigen::Index i = 0; i < d; ++i) {
-          const double force = derivative(t, q.row(s), i, none);
-          at.f_field(s, static_cast<Eigen::Index>(t) * d + i) = force;
-          at.f(s, i) += fields[t] * force;
-          for (Eigen::Index j = 0; j < d; ++j)
-            at.f_q(s, j * d + i) += fields[t] * derivative(t, q.row(s), i, j);
-        }
-  }
-  double stored(Fields fields, In q, In) const override {
-    double sum = 0;
-    for (std::size_t t = 0; t < degrees_.size(); ++t)
-      sum += fields[t] * derivative(t, q.transpose(), none, none);
+        sum += std::abs(fields[t]) * own * (degree_of(t) - 1) * std::pow(reach, degree_of(t) - 2);
     return sum;
   }
 
  private:
-  static constexpr Eigen::Index none = -1;
+  int degree_of(std::size_t t) const {
+    return std::accumulate(terms_.powers[t].begin(), terms_.powers[t].end(), 0);
+  }
+  const Terms& terms_;
+};
 
-  // Of the product of term t by q_i and q_j.
-  template <class Row>
-  double derivative(std::size_t t, const Row& q, Eigen::Index i, Eigen::Index j) const {
-    double product = 1;
-    for (Eigen::Index k = 0; k < q.size(); ++k) {
-      int n = terms_.powers[t][static_cast<std::size_t>(k)];
-      for (const Eigen::Index by : {i, j})
-        if (by == k) product *= n--;
-      if (product == 0) return 0;
-      product *= integer_power(q[k], n);
+/// The law of one element, with what it refers to.
+class PolynomialCoupling {
+ public:
+  explicit PolynomialCoupling(Terms terms) : terms_(std::move(terms)) {
+    slots_.assign(terms_.names.begin(), terms_.names.end());
+    for (std::size_t t = 0; t < terms_.powers.size(); ++t) {
+      factors_.push_back("factor" + std::to_string(t + 1));
+      names_.push_back("v" + std::to_string(t + 1));
+      places_.push_back("/potential/" + std::to_string(t) + "/value");
     }
-    return product;
+    for (std::size_t t = 0; t < terms_.powers.size(); ++t) {
+      const int degree = std::accumulate(terms_.powers[t].begin(), terms_.powers[t].end(), 0);
+      fields_.push_back({.name = names_[t],
+                         .unit = energy_units[degree - least_degree],
+                         .lower = -infinity,
+                         .upper = infinity,
+                         .help = "factor of this term of the energy",
+                         .place = places_[t]});
+    }
+    std::vector<std::string> forces;
+    for (std::size_t i = 0; i < slots_.size(); ++i) forces.push_back(force_along(i));
+    law_.emplace(terms_, forces, fields_, factors_);
+  }
+  PolynomialCoupling(const PolynomialCoupling&) = delete;
+  PolynomialCoupling& operator=(const PolynomialCoupling&) = delete;
+
+  const Terms& terms() const { return terms_; }
+  std::span<const std::string_view> slots() const { return slots_; }
+  std::span<const scene::Field> fields() const { return fields_; }
+  const CouplingLaw& law() const { return *law_; }
+
+ private:
+  // The derivative of the energy by one displacement.
+  std::string force_along(std::size_t i) const {
+    std::string sum;
+    for (std::size_t t = 0; t < terms_.powers.size(); ++t) {
+      const std::vector<int>& powers = terms_.powers[t];
+      if (powers[i] == 0) continue;
+      sum += (sum.empty() ? "" : " + ") + factors_[t] + "*" + std::to_string(powers[i]);
+      for (std::size_t j = 0; j < powers.size(); ++j)
+        if (const int n = i == j ? powers[j] - 1 : powers[j]; n > 0)
+          sum += "*q" + (powers.size() > 1 ? std::to_string(j + 1) : "") + "^" + std::to_string(n);
+    }
+    return sum;
   }
 
   Terms terms_;
-  std::vector<int> degrees_;
-  std::vector<std::string> names_, places_;
+  std::vector<std::string> factors_, names_, places_;
   std::vector<std::string_view> slots_;
   std::vector<scene::Field> fields_;
+  std::optional<CouplingLaw> law_;
 };
 
 struct PolynomialCouplingOptions {
@@ -241,20 +229,22 @@ scene::file::KeysOf<PolynomialCouplingOptions> potential_keys() {
 class PolynomialCouplingType final : public scene::file::KeyedPart<PolynomialCouplingOptions, LawType> {
  public:
   PolynomialCouplingType() : KeyedPart(potential_keys()) {}
-  std::string_view name() const override { return "polynomial_coupling"; }
-  std::string_view help() const override {
-    return "springs that couple displacements by a polynomial energy";
-  }
+  std::string_view name() const override { return coupling_name; }
+  std::string_view help() const override { return coupling_help; }
   std::span<const scene::Field> fields(const scene::Settings& options) const override {
-    return options.empty() ? std::span<const scene::Field>()
-                           : options.as<PolynomialCouplingOptions>().coupling->fields({});
+    return options.empty() ? std::span<const scene::Field>() : of(options)->fields();
   }
   bool names_directions() const override { return true; }
   std::span<const std::string_view> slots_with(const scene::Settings& options) const override {
-    return options.empty() ? std::span<const std::string_view>()
-                           : options.as<PolynomialCouplingOptions>().coupling->slots();
+    return options.empty() ? std::span<const std::string_view>() : of(options)->slots();
   }
   std::shared_ptr<const Law> law(const scene::Settings& options) const override {
+    const auto coupling = of(options);
+    return {coupling, &coupling->law()};
+  }
+
+ private:
+  static std::shared_ptr<const PolynomialCoupling> of(const scene::Settings& options) {
     return options.empty() ? PolynomialCouplingOptions{}.coupling
                            : options.as<PolynomialCouplingOptions>().coupling;
   }

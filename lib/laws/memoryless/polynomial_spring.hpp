@@ -6,7 +6,7 @@
 //
 // Fields: c_n (N/m^n) for each power of the option "coefficients": {"2": 3.0, "3": 1.0} has c2 and c3.
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 
 #include <vector>
 

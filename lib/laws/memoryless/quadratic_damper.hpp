@@ -11,7 +11,7 @@
 //
 // Fields: coefficient c (N s^2/m^2), at least 0.
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 
 namespace arcslip::elements {
 

@@ -2,7 +2,7 @@
 // Laws that are a formula of one displacement q (m) and its velocity v (m/s): a line of a table each, with
 // fields, units and bounds.
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 
 namespace arcslip::elements {
 

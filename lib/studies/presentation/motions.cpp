@@ -1,6 +1,6 @@
 #include <arcslip/studies/presentation/motions.hpp>
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/table_of.hpp>
 #include <arcslip/results/text.hpp>

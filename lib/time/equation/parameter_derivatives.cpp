@@ -1,11 +1,9 @@
 #include <arcslip/time/equation/parameter_derivatives.hpp>
 
-#include <arcslip/continuation/problem/difference.hpp>
+#include <arcslip/laws/automata_rates.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <limits>
 #include <utility>
 
 namespace arcslip::time {
@@ -13,117 +11,25 @@ namespace {
 
 constexpr double least_size = 1e-200;  // of a parameter that has one
 
-using elements::Automaton;
-using elements::Guard;
-using elements::Law;
-using elements::Mode;
-
-// A law's automata, and its sliders' bounds, which are functions of its fields.
-struct Numbers {
-  std::vector<Automaton> automata;
-  std::vector<ElementRates::Slider> sliders;
-};
-
-Numbers numbers_of(const TimeElement& element, const std::vector<double>& fields) {
-  Numbers numbers;
-  auto automata = element.law->automata(fields);
-  if (!automata) return numbers;
-  numbers.automata = std::move(*automata);
-  for (const Automaton& automaton : numbers.automata) {
-    ElementRates::Slider& slider = numbers.sliders.emplace_back();
-    const int k = automaton.memory;
-    if (k < 0 || element.law->slider_direction(k) < 0) continue;
-    slider.lower = element.directions * element.law->slider_bound(fields, k, -1).transpose();
-    slider.upper = element.directions * element.law->slider_bound(fields, k, 1).transpose();
-    slider.room = element.law->slider_room(fields, k).value_or(0);
-  }
-  return numbers;
-}
-
-bool same_modes(const Numbers& a, const Numbers& b) {
-  return std::equal(a.automata.begin(), a.automata.end(), b.automata.begin(), b.automata.end(),
-                    [](const Automaton& one, const Automaton& other) {
-                      return std::equal(one.modes.begin(), one.modes.end(), other.modes.begin(),
-                                        other.modes.end(), [](const Mode& m, const Mode& n) {
-                                          return m.name == n.name && m.rests == n.rests &&
-                                                 std::equal(
-                                                     m.leaves.begin(), m.leaves.end(), n.leaves.begin(),
-                                                     n.leaves.end(), [](const Guard& g, const Guard& h) {
-                                                       return g.to == h.to && g.q.size() == h.q.size() &&
-                                                              g.v.size() == h.v.size();
-                                                     });
-                                        });
-                    });
-}
-
-// to += weight * from, in all their numbers.
-void add(double weight, const Guard& from, Guard& to) {
-  to.q += weight * from.q;
-  to.v += weight * from.v;
-  to.z += weight * from.z;
-  to.c += weight * from.c;
-}
-
-void add(double weight, const Mode& from, Mode& to) {
-  to.f_q += weight * from.f_q;
-  to.f_z += weight * from.f_z;
-  to.f_0 += weight * from.f_0;
-  to.z_q += weight * from.z_q;
-  to.z_0 += weight * from.z_0;
-  for (std::size_t i = 0; i < to.leaves.size(); ++i) add(weight, from.leaves[i], to.leaves[i]);
-}
-
-void add(double weight, const Numbers& from, Numbers& to) {
-  for (std::size_t i = 0; i < to.automata.size(); ++i) {
-    for (std::size_t j = 0; j < to.automata[i].modes.size(); ++j)
-      add(weight, from.automata[i].modes[j], to.automata[i].modes[j]);
-    to.sliders[i].lower += weight * from.sliders[i].lower;
-    to.sliders[i].upper += weight * from.sliders[i].upper;
-    to.sliders[i].room += weight * from.sliders[i].room;
-  }
-}
-
-// The sum of weight * (numbers - here): exactly 0 where a number does not change.
-ElementRates sum(const Numbers& here, std::initializer_list<std::pair<double, const Numbers*>> terms) {
-  Numbers all = here;
-  add(-1, here, all);
-  for (const auto& [weight, numbers] : terms) {
-    Numbers change = *numbers;
-    add(-1, here, change);
-    add(weight, change, all);
-  }
-  return {std::move(all.automata), std::move(all.sliders)};
-}
-
-// Along the rates of its fields. A field of 0 is a limit of most laws, below which they have other numbers:
-// then from the side on which it is positive.
+// Along the rates of its fields.
 std::optional<ElementRates> rates_of(const TimeElement& element, const std::vector<double>& rates) {
-  if (std::all_of(rates.begin(), rates.end(), [](double rate) { return rate == 0; })) return ElementRates{};
-  double h = std::numeric_limits<double>::infinity(), limit = 0;  // 1, -1: the side of a limit
-  for (std::size_t k = 0; k < rates.size(); ++k) {
-    if (rates[k] == 0) continue;
-    const double field = std::abs(element.fields[k]);
-    if (field == 0 && limit == 0) limit = rates[k] > 0 ? 1 : -1;
-    h = std::min(h, continuation::difference_step * (field == 0 ? 1 : field) / std::abs(rates[k]));
+  ElementRates all;
+  if (std::all_of(rates.begin(), rates.end(), [](double rate) { return rate == 0; }) ||
+      !element.law->automata(element.fields))
+    return all;
+  auto automata = elements::automata_rates(*element.law, element.fields, rates);
+  if (!automata) return {};
+  all.automata = std::move(*automata);
+  for (const elements::Automaton& automaton : all.automata) {
+    ElementRates::Slider& bounds = all.sliders.emplace_back();
+    if (automaton.memory < 0) continue;
+    const elements::Slider slider = elements::slider_of(automaton);
+    bounds.lower = element.directions * slider.lower.transpose();
+    bounds.upper = element.directions * slider.upper.transpose();
+    bounds.room = slider.room.value_or(0);
+    bounds.centre = slider.centre;
   }
-  const Numbers here = numbers_of(element, element.fields);
-  const auto at = [&](double distance) -> std::optional<Numbers> {
-    std::vector<double> fields = element.fields;
-    for (std::size_t k = 0; k < rates.size(); ++k) fields[k] += distance * rates[k];
-    Numbers numbers = numbers_of(element, fields);
-    if (!same_modes(here, numbers)) return {};
-    return numbers;
-  };
-  const auto one_sided = [&](double side) -> std::optional<ElementRates> {
-    const auto once = at(side * h), twice = at(2 * side * h);
-    if (!once || !twice) return {};
-    return sum(here, {{2 / (side * h), &*once}, {-0.5 / (side * h), &*twice}});
-  };
-  if (limit != 0) return one_sided(limit);
-  const auto above = at(h), below = at(-h);
-  if (above && below) return sum(here, {{0.5 / h, &*above}, {-0.5 / h, &*below}});
-  auto rate = one_sided(1);
-  return rate ? rate : one_sided(-1);
+  return all;
 }
 
 Matrix rate_of(const Matrix& above, const Matrix& below, double distance) {

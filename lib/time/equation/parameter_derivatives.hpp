@@ -23,7 +23,8 @@ struct ElementRates {
   std::vector<elements::Automaton> automata;  // empty: nothing changes
   struct Slider {
     Vector lower, upper;  // of its bounds, along the degrees of freedom
-    double room = 0;      // Law::slider_room()
+    double room = 0;      // elements::Slider::room
+    double centre = 0;    // elements::Slider::centre
   };
   std::vector<Slider> sliders;  // of each automaton
 };

@@ -19,12 +19,13 @@ struct RestingSlider {
   Eigen::RowVectorXd derivative;  // of the offset with respect to the start, 2 dofs + sliders
 };
 
-/// high, low: the largest lower bound and the smallest upper one, but for the room (Law::slider_room()).
-inline RestingSlider resting_slider(int slider, std::optional<double> room, double high,
+/// high, low: the largest lower bound and the smallest upper one, but for their room and their centre at rest
+/// (elements::Slider).
+inline RestingSlider resting_slider(int slider, std::optional<double> room, double centre, double high,
                                     const Eigen::RowVectorXd& d_high, double low,
                                     const Eigen::RowVectorXd& d_low) {
-  if (!room) return {slider, 0.5 * (high + low), 0.5 * (d_high + d_low)};
-  const double a = high - *room, b = low + *room;
+  if (!room) return {slider, 0.5 * (high + low) + centre, 0.5 * (d_high + d_low)};
+  const double a = high + centre - *room, b = low + centre + *room;
   if (a > 0) return {slider, a, d_high};
   if (b < 0) return {slider, b, d_low};
   return {slider, 0, Eigen::RowVectorXd::Zero(d_high.size())};

@@ -13,8 +13,9 @@ namespace {
 double elastic_and_kinetic(const EquationOfMotion& equation, const MotionState& state) {
   double energy = 0.5 * state.v.dot(equation.M * state.v) + 0.5 * state.x.dot(equation.K * state.x);
   for (const TimeElement& element : equation.elements)
-    energy += element.law->stored(element.fields, element.directions.transpose() * state.x,
-                                  state.z.segment(element.memory, element.law->memory()));
+    energy += element.law->in_time(element.fields)
+                  ->stored(element.directions.transpose() * state.x,
+                           state.z.segment(element.memory, element.law->memory()));
   return energy;
 }
 

@@ -14,7 +14,7 @@
 // own. x, x' and the forces are continuous at every event.
 //
 // At the start each element is in the first mode of its automata, after its memory was drawn to where it must
-// be (Law::begin); guards decide the rest.
+// be (TimeLaw::begin); guards decide the rest.
 //
 // Derivatives with respect to the start run along as columns of the same series. A memory that follows has
 // those of what it follows from there on; the forces are continuous, so that nothing jumps. Source:

@@ -26,14 +26,24 @@ std::vector<Contact> contacts_of(const EquationOfMotion& equation) {
     for (auto& automaton : *automata) {
       const int k = automaton.memory;
       std::vector<Vector> along(element.directions.colwise().begin(), element.directions.colwise().end());
-      const int slider = k < 0 ? -1 : element.law->slider_direction(k);
-      const auto bound = [&](int side) -> Vector {
-        if (slider < 0) return {};
-        return element.directions * element.law->slider_bound(element.fields, k, side).transpose();
-      };
-      contacts.push_back({static_cast<int>(e), std::move(automaton), element.directions, std::move(along),
-                          row, k < 0 ? -1 : element.memory + k, slider, bound(-1), bound(1)});
-      if (slider >= 0) contacts.back().room = element.law->slider_room(element.fields, k);
+      Contact& contact = contacts.emplace_back(Contact{static_cast<int>(e),
+                                                       std::move(automaton),
+                                                       element.directions,
+                                                       std::move(along),
+                                                       row,
+                                                       -1,
+                                                       -1,
+                                                       {},
+                                                       {}});
+      if (k >= 0) {
+        const elements::Slider slider = elements::slider_of(contact.automaton);
+        contact.memory = element.memory + k;
+        contact.slider = slider.direction;
+        contact.lower = element.directions * slider.lower.transpose();
+        contact.upper = element.directions * slider.upper.transpose();
+        contact.room = slider.room;
+        contact.centre = slider.centre;
+      }
       row += element.directions.cols();
     }
   }
@@ -82,7 +92,7 @@ void March::begin(const MotionState& start, double time, Columns carried, const 
     const int own = element.law->memory();
     elements::StepEnd at(element.law->directions(), own);
     Vector z = Z_.col(0).segment(element.memory, own);
-    element.law->begin(element.fields, element.directions.transpose() * start.x, z, at);
+    element.law->in_time(element.fields)->begin(element.directions.transpose() * start.x, z, at);
     Z_.col(0).segment(element.memory, own) = z;
   }
   g_.setZero(contacts_.empty() ? 0 : contacts_.back().row + contacts_.back().directions.cols(), columns);
@@ -104,7 +114,7 @@ void March::begin(const MotionState& start, double time, Columns carried, const 
   reason_ = EndReason::reached;
 }
 
-// A slider that Law::begin() moved to its limit is where it is when it follows there.
+// A slider that TimeLaw::begin() moved to its limit is where it is when it follows there.
 void March::draw(const Contact& contact) {
   const Vector q = contact.directions.transpose() * X_.col(0);
   const auto& modes = contact.automaton.modes;

@@ -20,8 +20,9 @@ struct Contact {
   int slider;                 // the direction that this memory follows; -1: it is no slider
   Vector lower, upper;        // its bounds move with lower . x and upper . x
   int now = 0;                // index of the mode
-  // Between its bounds: elements::Law::slider_room().
+  // Between its bounds: elements::Slider::room.
   std::optional<double> room{};
+  double centre = 0;
   const elements::Automaton* rates = nullptr;  // by the parameter of the variation; null: none changes
   const ElementRates::Slider* slider_rates = nullptr;
 

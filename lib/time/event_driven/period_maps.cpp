@@ -41,13 +41,13 @@ class SliderRanges {
         if (!(bound > range.high)) return;
         range.high = bound;
         range.dhigh = piece.along(lower, s);
-        if (rates) range.dhigh.tail<1>()[0] += piece.along(rates->lower, s)[0] - rates->room;
+        if (rates) range.dhigh.tail<1>()[0] += piece.along(rates->lower, s)[0] + rates->centre - rates->room;
       });
       extremes_.visit(piece, upper, march_.s(), range.low, INFINITY, [&](double s, double bound) {
         if (!(bound < range.low)) return;
         range.low = bound;
         range.dlow = piece.along(upper, s);
-        if (rates) range.dlow.tail<1>()[0] += piece.along(rates->upper, s)[0] + rates->room;
+        if (rates) range.dlow.tail<1>()[0] += piece.along(rates->upper, s)[0] + rates->centre + rates->room;
       });
     }
   }
@@ -60,8 +60,8 @@ class SliderRanges {
       if (!range.resting() || range.dhigh.size() == 0) continue;
       const Contact& contact = march_.contacts()[i];
       const Eigen::Index rest = range.dhigh.size() - 1;
-      all.push_back(resting_slider(contact.memory, contact.room, range.high, range.dhigh.tail(rest),
-                                   range.low, range.dlow.tail(rest)));
+      all.push_back(resting_slider(contact.memory, contact.room, contact.centre, range.high,
+                                   range.dhigh.tail(rest), range.low, range.dlow.tail(rest)));
     }
     return all;
   }

@@ -24,6 +24,7 @@ ImplicitElements::ImplicitElements(std::vector<TimeElement> elements, int dofs)
   int memory = 0;
   for (const TimeElement& element : elements_) {
     const int own = element.law->directions();
+    laws_.push_back(element.law->in_time(element.fields));
     first_.push_back(directions);
     ends_.emplace_back(own, element.law->memory());
     starts_.emplace_back(own, element.law->memory());
@@ -78,7 +79,7 @@ void ImplicitElements::begin_at(const Vector& q, const Vector& rate, const Vecto
     const auto d = element.directions.cols(), m = ends_[e].dz.size();
     ends_[e].v = rate_.segment(first_[e], d);
     ends_[e].phase = phase_;
-    element.law->begin(element.fields, q_.segment(first_[e], d), z_.segment(element.memory, m), ends_[e]);
+    laws_[e]->begin(q_.segment(first_[e], d), z_.segment(element.memory, m), ends_[e]);
     force_.segment(first_[e], d) = ends_[e].f;
   }
   new_force_ = force_;
@@ -98,8 +99,8 @@ void ImplicitElements::evaluate(const Vector& y) {
     const auto d = end.f.size(), m = end.dz.size(), i = first_[e];
     if (moves_) end.v = new_rate_.segment(i, d);
     end.phase = phase_;
-    element.law->step(element.fields, {q_.segment(i, d), z_.segment(element.memory, m), force_.segment(i, d)},
-                      dq_.segment(i, d), end);
+    laws_[e]->step({q_.segment(i, d), z_.segment(element.memory, m), force_.segment(i, d)}, dq_.segment(i, d),
+                   end);
     new_force_.segment(i, d) = end.f;
     tangent_.segment(at, d * d) = end.f_q.reshaped();
     at += d * d;
@@ -254,8 +255,8 @@ double ImplicitElements::energy() const {
   double sum = 0;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const TimeElement& element = elements_[e];
-    sum += element.law->stored(element.fields, q_.segment(first_[e], element.directions.cols()),
-                               z_.segment(element.memory, ends_[e].dz.size()));
+    sum += laws_[e]->stored(q_.segment(first_[e], element.directions.cols()),
+                            z_.segment(element.memory, ends_[e].dz.size()));
   }
   return sum;
 }
@@ -271,7 +272,7 @@ void ImplicitElements::force_change(const Matrix& dx, const Matrix& dv, const Ma
     z = last_z_.segment(element.memory, m);
     at.v = last_rate_.segment(i, d);
     at.phase = last_phase_;
-    element.law->begin(element.fields, last_q_.segment(i, d), z, at);
+    laws_[e]->begin(last_q_.segment(i, d), z, at);
     df.middleRows(i, d).noalias() = at.f_q * dq_columns_.middleRows(i, d);
     df.middleRows(i, d).noalias() += at.f_z * dz.middleRows(element.memory, m);
     if (element.law->rate_dependent()) df.middleRows(i, d) += at.f_v * (element.directions.transpose() * dv);

@@ -78,6 +78,7 @@ class ImplicitElements {
   double halve(const Vector& y, double size);
 
   std::vector<TimeElement> elements_;
+  std::vector<std::unique_ptr<elements::TimeLaw>> laws_;
   std::vector<Eigen::Index> first_;
   std::vector<elements::StepEnd> ends_, starts_;  // of the step; of the state before the last accept()
   bool convex_ = true, moves_ = false;            // some law depends on velocities

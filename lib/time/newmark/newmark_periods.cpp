@@ -50,7 +50,11 @@ class Observation {
     const auto& equation = newmark.equation();
     for (const TimeElement& element : equation.elements) {
       if (element.law->has_contact()) result_.friction.emplace_back();
-      if (with_history) result_.history.elements.push_back({element.name, {}, {}, {}, {}});
+      if (!with_history) continue;
+      result_.history.elements.push_back({element.name, {}, {}, {}, {}});
+      sliders_.push_back(-1);
+      for (const elements::Slider& slider : element.law->sliders(element.fields))
+        if (slider.direction == 0 && sliders_.back() < 0) sliders_.back() = slider.memory;
     }
     if (with_history) reserve(static_cast<std::size_t>(steps) + 1);
     for (const TimeElement& element : equation.elements)
@@ -134,17 +138,14 @@ class Observation {
       if (element.law->has_normal_load())
         of.normal_load.push_back(
             element.law->normal_load_at(element.fields, normal_of(element).dot(newmark_.state().x)));
-      for (int k = 0; k < element.law->memory(); ++k)
-        if (element.law->slider_direction(k) == 0) {
-          of.slider.push_back(newmark_.state().z[element.memory + k]);
-          break;
-        }
+      if (sliders_[e] >= 0) of.slider.push_back(newmark_.state().z[element.memory + sliders_[e]]);
     }
   }
 
   const Newmark& newmark_;
   bool with_history_;
   DisplacementRange response_;
+  std::vector<int> sliders_;               // of the elements: the memory that the history has, or -1
   std::vector<DisplacementRange> normal_;  // of each contact whose normal load varies
   PeriodMotion result_;
 };
@@ -153,17 +154,18 @@ class Observation {
 class SliderReach {
  public:
   /// change: of the displacements by the state at the start.
-  SliderReach(const TimeElement& element, int k, const MotionState& start,
+  SliderReach(const TimeElement& element, const elements::Slider& slider, const MotionState& start,
               const Eigen::Ref<const Matrix>& change)
-      : slider_(element.memory + k),
-        room_(element.law->slider_room(element.fields, k)),
-        lower_(element.directions * element.law->slider_bound(element.fields, k, -1).transpose()),
-        upper_(element.directions * element.law->slider_bound(element.fields, k, 1).transpose()),
+      : slider_(element.memory + slider.memory),
+        room_(slider.room),
+        centre_(slider.centre),
+        lower_(element.directions * slider.lower.transpose()),
+        upper_(element.directions * slider.upper.transpose()),
         high_(lower_.dot(start.x)),
         low_(upper_.dot(start.x)),
         d_high_(lower_.transpose() * change),
         d_low_(upper_.transpose() * change) {
-    up_ = down_ = element.law->traits(element.fields, element.law->slider_direction(k)).limit == 0;
+    up_ = down_ = element.law->traits(element.fields, slider.direction).limit == 0;
   }
 
   // A slider that slips in one direction only does not return, and counts as sticking for periodic motions.
@@ -185,14 +187,15 @@ class SliderReach {
   }
 
   void add_to(std::vector<RestingSlider>& resting) const {
-    resting.push_back(resting_slider(slider_, room_, high_, d_high_, low_, d_low_));
+    resting.push_back(resting_slider(slider_, room_, centre_, high_, d_high_, low_, d_low_));
   }
 
  private:
   int slider_;
-  std::optional<double> room_;  // between its bounds: elements::Law::slider_room()
-  Vector lower_, upper_;        // its bounds move with lower . x and upper . x
-  double high_, low_;           // of the lower and of the upper one
+  std::optional<double> room_;  // between its bounds: elements::Slider::room
+  double centre_;
+  Vector lower_, upper_;  // its bounds move with lower . x and upper . x
+  double high_, low_;     // of the lower and of the upper one
   Eigen::RowVectorXd d_high_, d_low_;
   bool up_, down_;  // slips that way
 };
@@ -252,13 +255,13 @@ PeriodMap newmark_map(Newmark& newmark, const MotionState& start) {
   std::vector<SliderReach> reaches;
   std::vector<PlaneSlider> planes;
   for (const TimeElement& element : equation.elements) {
-    if (PlaneSlider::among(*element.law)) {
+    const auto sliders = element.law->sliders(element.fields);
+    if (PlaneSlider::among(sliders)) {
       planes.emplace_back(element, newmark.steps_per_period(), size);
       continue;
     }
-    for (int k = 0; k < element.law->memory(); ++k)
-      if (element.law->slider_direction(k) >= 0)
-        reaches.emplace_back(element, k, start, map.monodromy.topRows(n));
+    for (const elements::Slider& slider : sliders)
+      reaches.emplace_back(element, slider, start, map.monodromy.topRows(n));
   }
   for (long k = 0; k < newmark.steps_per_period(); ++k) {
     const Solved solved = newmark.step();

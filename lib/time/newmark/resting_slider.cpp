@@ -11,15 +11,10 @@ constexpr long steps_per_order = 4;
 
 }  // namespace
 
-bool PlaneSlider::among(const elements::Law& law) {
-  int first = -1;
-  for (int k = 0; k < law.memory(); ++k) {
-    const int along = law.slider_direction(k);
-    if (along < 0) continue;
-    if (first >= 0 && along != first) return true;
-    first = along;
-  }
-  return false;
+bool PlaneSlider::among(const std::vector<elements::Slider>& sliders) {
+  return std::any_of(sliders.begin(), sliders.end(), [&](const elements::Slider& slider) {
+    return slider.direction != sliders.front().direction;
+  });
 }
 
 PlaneSlider::PlaneSlider(const TimeElement& element, long steps, Eigen::Index start)
@@ -30,11 +25,9 @@ PlaneSlider::PlaneSlider(const TimeElement& element, long steps, Eigen::Index st
   u_ = Vector::Zero(size);
   phi_.resize(harmonics_.size());
   u_start_ = Matrix::Zero(size, start);
-  for (int k = 0; k < element.law->memory(); ++k) {
-    const int along = element.law->slider_direction(k);
-    if (along < 0) continue;
-    const bool free = element.law->traits(element.fields, along).limit == 0;
-    coordinates_.push_back({k, free, free});
+  for (const elements::Slider& slider : element.law->sliders(element.fields)) {
+    const bool free = element.law->traits(element.fields, slider.direction).limit == 0;
+    coordinates_.push_back({slider.memory, free, free});
   }
 }
 
@@ -76,9 +69,10 @@ void PlaneSlider::add_to(std::vector<RestingSlider>& resting) const {
     mean_start.row(i) = u_start_.row(i * c);
     force_start.row(i) = balance_->jacobian().row(i * c) * u_start_;
   }
-  law.memory_at(element_->fields, mean, force, w);  // linear where sliders rest
+  const auto in_time = law.in_time(element_->fields);
+  in_time->memory_at(mean, force, w);  // linear where sliders rest
   for (Eigen::Index j = 0; j < columns; ++j)
-    law.memory_at(element_->fields, mean_start.col(j), force_start.col(j), w_start.col(j));
+    in_time->memory_at(mean_start.col(j), force_start.col(j), w_start.col(j));
   for (int k = 0; k < law.memory(); ++k) resting.push_back({element_->memory + k, w[k], w_start.row(k)});
 }
 

@@ -9,12 +9,12 @@
 namespace arcslip::time {
 
 /// A resting slider is put where harmonic balance has it, from the harmonics of the motion up to order 16:
-/// with the mean force f of the element and the mean displacement q, at Law::memory_at(q, f). Each place at
-/// which it may rest is a periodic motion, so that the harmonics left out change the choice alone.
+/// with the mean force f of the element and the mean displacement q, at TimeLaw::memory_at(q, f). Each place
+/// at which it may rest is a periodic motion, so that the harmonics left out change the choice alone.
 class PlaneSlider {
  public:
   /// Whether the sliders of a law have several directions.
-  static bool among(const elements::Law& law);
+  static bool among(const std::vector<elements::Slider>& sliders);
 
   /// steps: per period. start: number of variables of the start, 2 dofs + sliders.
   PlaneSlider(const TimeElement& element, long steps, Eigen::Index start);

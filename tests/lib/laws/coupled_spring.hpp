@@ -18,13 +18,6 @@ class CoupledSpring final : public elements::SampledLaw {
   std::span<const std::string_view> slots() const override { return slots_; }
 
   elements::Facts facts() const override { return {.antisymmetric = true}; }
-  elements::Traits traits(Fields, int) const override {
-    return {.stiffness = std::numeric_limits<double>::infinity(),
-            .holds_mean = true,
-            .several_responses = true,
-            .far_power = 3};
-  }
-  double stiffness(Fields fields, int, double reach) const override { return 6 * fields[0] * reach * reach; }
 
   void sample(Fields fields, const Eigen::MatrixXd& q, elements::SampledForce& at) const override {
     for (Eigen::Index s = 0; s < q.rows(); ++s) {
@@ -36,9 +29,6 @@ class CoupledSpring final : public elements::SampledLaw {
           at.f_q(s, 2 * j + i) = k * (2 * q(s, i) * q(s, j) + (i == j ? square : 0));
       }
     }
-  }
-  double stored(Fields fields, In q, In) const override {
-    return 0.25 * fields[0] * q.squaredNorm() * q.squaredNorm();
   }
 
  private:

@@ -55,14 +55,15 @@ struct State {
       : law(l), fields(std::move(values)), q(std::move(place)), z(std::move(memory)) {
     elements::StepEnd at(law.directions(), law.memory());
     if (rate.size() > 0) at.v = rate;
-    law.begin(fields, q, z, at);
+    law.in_time(fields)->begin(q, z, at);
     f = at.f;
   }
   elements::StepEnd step(const VectorXd& dq, const VectorXd& rate = {}) const {
     elements::StepEnd end(law.directions(), law.memory());
     if (rate.size() > 0) end.v = rate;
-    law.step(fields, {q, z, f}, -2 * dq, end);  // of which nothing may be left
-    law.step(fields, {q, z, f}, dq, end);
+    const auto in_time = law.in_time(fields);
+    in_time->step({q, z, f}, -2 * dq, end);  // of which nothing may be left
+    in_time->step({q, z, f}, dq, end);
     return end;
   }
 };
@@ -132,7 +133,8 @@ inline void check_energy(const elements::Law& law, const std::vector<double>& fi
     return a * std::cos(theta) + 2 * b * std::cos(2 * theta);
   };
   VectorXd z = VectorXd::Zero(law.memory());
-  const double before = law.stored(fields, path(0), z);
+  const auto in_time = law.in_time(fields);
+  const double before = in_time->stored(path(0), z);
   double work = 0, dissipated = 0, most = 0;
   for (int k = 0; k < steps; ++k) {
     State state(law, fields, path(k), z, rate(k));
@@ -141,10 +143,10 @@ inline void check_energy(const elements::Law& law, const std::vector<double>& fi
     work += 0.5 * (state.f + end.f).dot(dq);
     dissipated += end.dissipated;
     z = state.z + end.dz;
-    most = std::max(most, law.stored(fields, path(k + 1), z));
+    most = std::max(most, in_time->stored(path(k + 1), z));
   }
   CHECK(dissipated >= -tolerance * most);
-  CHECK(std::abs(work - dissipated - (law.stored(fields, path(steps), z) - before)) <
+  CHECK(std::abs(work - dissipated - (in_time->stored(path(steps), z) - before)) <
         tolerance * (most + dissipated));
 }
 

@@ -61,7 +61,7 @@ class PolynomialLaw final : public elements::SampledLaw {
       at.f_q.array() += c * (k + 1) * q.array().pow(k);
     }
   }
-  double stored(Fields fields, In q, In) const override {
+  double stored(Fields fields, In q) const override {
     double sum = 0;
     for (int k = 0; k < degree_; ++k)
       sum += fields[static_cast<std::size_t>(k)] * std::pow(q[0], k + 2) / (k + 2);

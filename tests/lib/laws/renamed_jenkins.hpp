@@ -93,17 +93,6 @@ class RenamedJenkins final : public elements::PlainLaw {
                            elements::Angles angles) const override {
     return law().force_at(harmonics, u, in_order(fields), angles);
   }
-  int slider_direction(int k) const override { return law().slider_direction(k); }
-  void memory_at(Fields fields, In q, In f, Out z) const override {
-    law().memory_at(in_order(fields), q, f, z);
-  }
-  void begin(Fields fields, In q, Out z, elements::StepEnd& at) const override {
-    law().begin(in_order(fields), q, z, at);
-  }
-  void step(Fields fields, const elements::StepStart& start, In dq, elements::StepEnd& end) const override {
-    law().step(in_order(fields), start, dq, end);
-  }
-  double stored(Fields fields, In q, In z) const override { return law().stored(in_order(fields), q, z); }
   std::optional<std::vector<elements::Automaton>> automata(Fields fields) const override {
     return law().automata(in_order(fields));
   }

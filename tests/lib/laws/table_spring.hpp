@@ -34,7 +34,6 @@ class TableLaw final : public elements::SampledLaw {
   explicit TableLaw(const std::string& text) : rows_(rows_of(text)) {}
   std::string_view name() const override { return "table_spring"; }
   std::span<const scene::Field> fields(const scene::Settings&) const override { return factor; }
-  elements::Facts facts() const override { return {}; }
   elements::Traits traits(Fields fields, int direction) const override {
     return {.stiffness = stiffness(fields, direction, 0), .holds_mean = true};
   }
@@ -55,7 +54,6 @@ class TableLaw final : public elements::SampledLaw {
       at.f_field(k, 0) = f;
     }
   }
-  double stored(Fields, In, In) const override { return 0; }
 
   static constexpr scene::Field factor[1] = {{.name = "factor",
                                               .unit = "-",

@@ -80,46 +80,6 @@ class TwoSliders : public elements::PlainLaw {
            one().force_at(harmonics, u, fields.subspan(3), angles);
   }
 
-  int slider_direction(int) const override { return 0; }
-  // As if both bore the same share of the force.
-  void memory_at(Fields fields, In q, In f, Out z) const override {
-    const double k = fields[0] + fields[3];
-    z.setConstant(q[0] - f[0] / k);
-  }
-  void begin(Fields fields, In q, Out z, elements::StepEnd& at) const override {
-    at.f.setZero();
-    at.f_q.setZero();
-    for (const int i : {0, 1}) {
-      elements::StepEnd own(1, 1);
-      one().begin(part(fields, i), q, z.segment(i, 1), own);
-      at.f += own.f;
-      at.f_q += own.f_q;
-      at.f_z(0, i) = own.f_z(0, 0);
-    }
-  }
-  void step(Fields fields, const elements::StepStart& start, In dq, elements::StepEnd& end) const override {
-    end.f.setZero();
-    end.f_q.setZero();
-    end.dissipated = end.stick_share = 0;
-    for (const int i : {0, 1}) {
-      elements::StepEnd own(1, 1), at(1, 1);
-      Eigen::VectorXd z = start.z.segment(i, 1);
-      one().begin(part(fields, i), start.q, z, at);
-      one().step(part(fields, i), {start.q, z, at.f}, dq, own);
-      end.f += own.f;
-      end.f_q += own.f_q;
-      end.f_z(0, i) = own.f_z(0, 0);
-      end.dz[i] = own.dz[0];
-      end.z_q(i, 0) = own.z_q(0, 0);
-      end.z_z(i, i) = own.z_z(0, 0);
-      end.dissipated += own.dissipated;
-      end.stick_share += 0.5 * own.stick_share;
-    }
-  }
-  double stored(Fields fields, In q, In z) const override {
-    return one().stored(part(fields, 0), q, z.segment(0, 1)) +
-           one().stored(part(fields, 1), q, z.segment(1, 1));
-  }
   std::optional<std::vector<elements::Automaton>> automata(Fields fields) const override {
     auto both = *one().automata(part(fields, 0));
     both.push_back(one().automata(part(fields, 1))->front());

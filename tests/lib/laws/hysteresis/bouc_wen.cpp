@@ -84,7 +84,7 @@ TEST_CASE(
       for (int s = 0; s < 4 * steps; ++s) {
         const bool rises = s < steps || s >= 3 * steps;
         const VectorXd dq = VectorXd::Constant(1, (rises ? A : -A) / steps);
-        bouc_wen().step(fields, {q, z, f}, dq, end);
+        bouc_wen().in_time(fields)->step({q, z, f}, dq, end);
         q += dq;
         z += end.dz;
         f = end.f;
@@ -224,7 +224,7 @@ TEST_CASE("smooth hysteresis keeps numbers and bounds at all amplitudes, in step
         for (const double z : {-0.4, -0.1, 0.0, 0.3, 0.4}) {
           StepEnd end(1, 1);
           const VectorXd q = VectorXd::Zero(1), f = q, at = VectorXd::Constant(1, z);
-          bouc_wen().step(fields, {q, at, f}, VectorXd::Constant(1, dq), end);
+          bouc_wen().in_time(fields)->step({q, at, f}, VectorXd::Constant(1, dq), end);
           CAPTURE(n, shape, dq, z);
           CHECK(std::isfinite(end.f[0]));
           CHECK(std::isfinite(end.f_q(0, 0)));

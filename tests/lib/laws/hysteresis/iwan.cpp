@@ -202,9 +202,9 @@ TEST_CASE("the memory of a force has that force") {
     for (const double share : {-1.0, -0.7, -1e-6, 0.0, 1e-9, 0.3, 0.999, 1.0}) {
       const VectorXd q{{0.4}}, f{{share * limit}};
       VectorXd z(law->memory());
-      law->memory_at(fields, q, f, z);
+      law->in_time(fields)->memory_at(q, f, z);
       elements::StepEnd at(1, law->memory());
-      law->begin(fields, q, z, at);
+      law->in_time(fields)->begin(q, z, at);
       CHECK(std::abs(at.f[0] - f[0]) < 1e-14);
     }
   }

@@ -5,7 +5,7 @@
 
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/laws/law.hpp>
+#include <arcslip/laws/law_type.hpp>
 
 #include <memory>
 #include <string>

@@ -4,6 +4,7 @@
 
 #include <arcslip/fourier/reversals.hpp>
 #include <arcslip/laws/hysteresis/jenkins.hpp>
+#include <arcslip/laws/sampled_automata.hpp>
 
 #include <array>
 #include <cmath>
@@ -84,7 +85,7 @@ TEST_CASE("the derivative in every field is that of central differences") {
     for (const bool sampled : {false, true})
       for (double load : {0.3, 1.0, 2.0, 1e3}) {
         const Harmonics h{7, odd};
-        const auto element = sampled ? make_sampled_jenkins(h, 256) : make_jenkins(h);
+        const auto element = sampled ? sampled_automata(jenkins(), h, 256) : make_jenkins(h);
         const Eigen::VectorXd u = every_law::falling_motion(h, 1, 5);
         const FieldValues fields{2.0, 0.5, load};
         for (int k = 0; k < 3; ++k) {
@@ -114,7 +115,7 @@ TEST_CASE("sampling converges to the exact force as samples^-2") {
     exact->move_to(u, fields, true);
     double last = 0;
     for (int samples : {1000, 10000, 100000}) {
-      const auto sampled = make_sampled_jenkins(h, samples);
+      const auto sampled = sampled_automata(jenkins(), h, samples);
       sampled->move_to(u, fields, true);
       last = (sampled->force() - exact->force()).norm();
       CHECK(last < 40.0 / samples / samples);
@@ -135,7 +136,7 @@ TEST_CASE("sampled friction reports a slip phase up to each extreme, of any leng
     if (!odd) u[h.cosine_index(2)] = 0.4;
     Reversals reversals(h);
     const auto extremes = reversals.find(u);
-    const auto element = make_sampled_jenkins(h, 128);
+    const auto element = sampled_automata(jenkins(), h, 128);
     for (const double load : {1e-9, 1e-3, 0.1, 0.9}) {
       CAPTURE(odd, load);
       element->move_to(u, FieldValues{1.0, 1.0, load}, false);
@@ -169,7 +170,7 @@ TEST_CASE("the sampled Jacobian is exact for the sampled force") {
   for (bool odd : {true, false})
     for (double load : {0.5, 1.0, 2.5, 100.0}) {
       const Harmonics h{5, odd};
-      const auto element = make_sampled_jenkins(h, 100);
+      const auto element = sampled_automata(jenkins(), h, 100);
       const Eigen::VectorXd u = every_law::falling_motion(h, 1, 3);
       const FieldValues fields{2.0, 0.5, load};
       element->move_to(u, fields, true);
@@ -192,7 +193,7 @@ TEST_CASE("the sampled force is one straight line within its piece") {
     for (const double load : {0.0, 0.3, 1.0, 2.5, 100.0})
       for (unsigned seed = 1; seed <= 40; ++seed) {
         const Harmonics h{5, odd};
-        const auto element = make_sampled_jenkins(h, 64);
+        const auto element = sampled_automata(jenkins(), h, 64);
         const Eigen::VectorXd u = every_law::falling_motion(h, 1, seed),
                               v = u + every_law::falling_motion(h, 0.03, seed + 100);
         const FieldValues fields{2.0, 0.5, load};
@@ -236,7 +237,7 @@ TEST_CASE("a small loop within the large one keeps the anchor of the large one")
   u[0] = 1;
   u[1] = 0.5;
   const auto exact = make_jenkins(h);
-  const auto sampled = make_sampled_jenkins(h, 400000);
+  const auto sampled = sampled_automata(jenkins(), h, 400000);
   for (double load : {0.2, 0.6, 1.0, 1.4, 2.0}) {
     exact->move_to(u, FieldValues{1.0, 1.0, load}, true);
     sampled->move_to(u, FieldValues{1.0, 1.0, load}, true);
@@ -250,7 +251,7 @@ TEST_CASE("without load or without motion the force is what it must be") {
   for (bool odd : {true, false}) {
     const Harmonics h{5, odd};
     for (const bool sampled : {false, true}) {
-      const auto element = sampled ? make_sampled_jenkins(h, 128) : make_jenkins(h);
+      const auto element = sampled ? sampled_automata(jenkins(), h, 128) : make_jenkins(h);
       const Eigen::VectorXd u = every_law::falling_motion(h, 1, 2);
       element->move_to(u, FieldValues{2.0, 0.5, 0.0}, true);
       CHECK(element->force().norm() < 1e-14);
@@ -287,7 +288,7 @@ TEST_CASE(
   std::mt19937 random(5);
   std::uniform_real_distribution<double> number(-1, 1);
   for (int trial = 0; trial < 40; ++trial) {
-    const auto element = trial % 2 == 0 ? make_jenkins(h) : make_sampled_jenkins(h, 128);
+    const auto element = trial % 2 == 0 ? make_jenkins(h) : sampled_automata(jenkins(), h, 128);
     Eigen::VectorXd u = every_law::falling_motion(h, 1, static_cast<unsigned>(trial));
     for (int n = 1; n <= h.order; n += 2) u[h.cosine_index(n)] = u[h.sine_index(n)] = 0;
     const FieldValues fields{1, 0.5, 100};
@@ -306,7 +307,7 @@ TEST_CASE("an element without load has one piece, whatever its motion") {
   const Harmonics h{5, false};
   const FieldValues fields{2, 0.5, 0};
   for (const bool sampled : {false, true}) {
-    const auto element = sampled ? make_sampled_jenkins(h, 64) : make_jenkins(h);
+    const auto element = sampled ? sampled_automata(jenkins(), h, 64) : make_jenkins(h);
     element->move_to(every_law::falling_motion(h, 1, 1), fields, false);
     const auto piece = element->piece();
     for (unsigned seed = 2; seed < 30; ++seed) {

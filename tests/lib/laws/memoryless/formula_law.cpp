@@ -9,6 +9,7 @@
 #include <arcslip/laws/memoryless/formula_law.hpp>
 #include <arcslip/laws/memoryless/formula_type.hpp>
 #include <arcslip/laws/memoryless/quadratic_damper.hpp>
+#include <arcslip/laws/memoryless/smooth_laws.hpp>
 #include <arcslip/scene/faults.hpp>
 
 #include <array>
@@ -55,6 +56,12 @@ VectorXd coefficients(const std::string& force, const Harmonics& h, double A, do
 }
 
 }  // namespace
+
+TEST_CASE("a formula at no angle at all has no force") {
+  const Law1 law({"2*3*q^3"});
+  const Harmonics h{3, false};
+  CHECK(law->force_at(h, VectorXd::Zero(h.size()), {}, {}).rows() == 0);
+}
 
 TEST_CASE("the force of a cosine has the coefficients of closed forms") {
   const Harmonics h{12, false};
@@ -265,7 +272,7 @@ TEST_CASE("what follows from a formula: symmetry, growth, stiffness, and a singl
 
 TEST_CASE("the energy stored is the integral of the force") {
   const auto stored = [](const std::string& force, double q) {
-    return Law1({force})->stored({}, VectorXd::Constant(1, q), VectorXd());
+    return Law1({force})->in_time({})->stored(VectorXd::Constant(1, q), VectorXd());
   };
   CHECK(stored("q^3 - 2*q", 1.5) == Approx(std::pow(1.5, 4) / 4 - 1.5 * 1.5).epsilon(1e-15));
   CHECK(stored("sin(q)", 2) == Approx(1 - std::cos(2)).epsilon(1e-13));

@@ -110,12 +110,17 @@ TEST_CASE("faults of formulas have the column and what is meant") {
         "name\n");
   CHECK(faults(own_force("q", R"({"a b": 1})")).find("must have letters, digits and _ alone") !=
         std::string::npos);
-  CHECK(faults(own_force("k*q", R"({"k": "x"})")).find("/elements/0/parameters/k: column 1: found the unknown name \"x\"") ==
-        0);
+  CHECK(faults(own_force("k*q", R"({"k": "x"})"))
+            .find("/elements/0/parameters/k: column 1: found the unknown name \"x\"") == 0);
   CHECK(faults(own_force("k*q", R"({"k": {"value": 1}})")).find("/elements/0/parameters/k") == 0);
   CHECK(
       faults(own_force("k*q", R"({"k": {"value": 1, "unit": ""}})")).find("/elements/0/parameters/k/unit") ==
       0);
+  // Displacements may be angles; what is added must have one dimension all the same.
+  CHECK(faults(own_force("(k + c)*q",
+                         R"({"k": {"value": 1, "unit": "N/m"}, "c": {"value": 1, "unit": "N"}})")) ==
+        "/elements/0/force: found \"(k + c)*q\", which adds or compares N/m and N\n");
+  CHECK(faults(own_force("k*sin(q) + c", R"({"k": {"value": 1, "unit": "N"}, "c": 1})")).empty());
   CHECK(faults(R"({"name": "e", "type": "formula", "at": "x"})").find("\"force\"") != std::string::npos);
   CHECK(faults(R"({"name": "e", "type": "formula", "at": "x", "force": "q", "forces": ["q1", "q2"]})")
             .find("found \"force\" next to \"forces\"") != std::string::npos);

@@ -371,11 +371,11 @@ TEST_CASE("the work of a piecewise linear spring on its way is the energy stored
                                     {table({{-0.7, -1}, {-0.2, 0.3}, {0.4, 0.4}, {1.3, -2}}), {1.5}}})
     for (const double q : {-1.5, -0.3, 0.1, 0.9}) {
       const auto stored = [&](double at) {
-        return law->stored(fields, VectorXd::Constant(1, at), VectorXd());
+        return law->in_time(fields)->stored(VectorXd::Constant(1, at), VectorXd());
       };
       elements::StepEnd at(1, 0);
       VectorXd none;
-      law->begin(fields, VectorXd::Constant(1, q), none, at);
+      law->in_time(fields)->begin(VectorXd::Constant(1, q), none, at);
       CHECK(stored(0) == 0);
       CHECK(std::abs((stored(q + 1e-5) - stored(q - 1e-5)) / 2e-5 - at.f[0]) < 1e-9);
     }

@@ -5,10 +5,14 @@
 
 #include <arcslip/analyses/modes_and_time/time_study.hpp>
 #include <arcslip/analyses/responses/responses_at.hpp>
+#include <arcslip/laws/law_type.hpp>
 #include <arcslip/scene/format/json_schema.hpp>
 
 #include <cmath>
+#include <map>
 #include <random>
+#include <string>
+#include <vector>
 
 using namespace arcslip;
 
@@ -151,12 +155,43 @@ TEST_CASE("a potential that cannot be is reported where it stands") {
         {R"([{"powers": {"x": 2}, "value": 1}])",
          "/elements/0/potential/0/powers/x: found \"x\", must be one of the degrees of freedom"},
         {R"([{"powers": {"type": 2}, "value": 1}])", "which is a key of the element"},
-        {R"([{"powers": {"a": 2}, "value": "b"}])", "/elements/0/potential/0/value: column 1: found the unknown name \"b\""},
+        {R"([{"powers": {"a": 2}, "value": "b"}])",
+         "/elements/0/potential/0/value: column 1: found the unknown name \"b\""},
         {R"([{"powers": {"a": 2}, "value": 1}], "d": {"at": "a"})",
          "/elements/0/d: found the unknown key \"d\""},
         {R"([{"powers": {"a": 2}, "value": 1}], "at": "a")", "/elements/0/at: found the unknown key \"at\""},
         {R"([{"powers": {"d": 2}, "value": 1}], "d": {"at": "q"})", "/elements/0/d/at: found \"q\""}}) {
     CAPTURE(potential);
     CHECK_THROWS_WITH(plane(coupling(potential)), Catch::Matchers::Contains(fault));
+  }
+}
+
+TEST_CASE("a potential of a thousand terms over eight displacements is read, and its force is its gradient") {
+  std::mt19937 bits(3);
+  std::uniform_int_distribution<int> place(0, 7), power(1, 3);
+  std::string potential, places;
+  for (int i = 0; i < 8; ++i)
+    places += ", \"q" + std::to_string(i) + R"(": {"at": ")" + (i % 2 ? "a" : "b") + "\"}";
+  for (int t = 0; t < 1000; ++t) {
+    std::map<int, int> powers{{t % 8, power(bits)}};
+    for (int k = 0; k < 2; ++k) powers[place(bits)] += 1;
+    std::string of;
+    for (const auto& [i, n] : powers)
+      of += (of.empty() ? "\"q" : ", \"q") + std::to_string(i) + "\": " + std::to_string(n);
+    potential += (t > 0 ? ", " : "") + (R"({"powers": {)" + of) + R"(}, "value": 0.001})";
+  }
+  const scene::Scene s = plane(coupling("[" + potential + "]", places));
+  const auto law = elements::law_of(s.elements[0]);
+  const std::vector<double> fields(1000, 0.001);
+  const auto in_time = law->in_time(fields);
+  const Eigen::VectorXd q = Eigen::VectorXd::Random(8), none(0);
+  elements::StepEnd at(8, 0);
+  Eigen::VectorXd z(0);
+  in_time->begin(q, z, at);
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::VectorXd d = 1e-5 * Eigen::VectorXd::Unit(8, i);
+    CHECK(at.f[i] == Approx((in_time->stored(q + d, none) - in_time->stored(q - d, none)) / 2e-5)
+                         .epsilon(1e-8)
+                         .margin(1e-9));
   }
 }
