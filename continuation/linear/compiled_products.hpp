@@ -70,13 +70,12 @@ inline constexpr bool is_multiplied_by_arcslip =
 // An operand whose numbers of rows and columns are known at run time alone.
 template <class Operand>
 inline constexpr bool has_columns_for_arcslip =
-    is_multiplied_by_arcslip<typename Operand::Scalar>&& Operand::RowsAtCompileTime ==
-        Dynamic&& Operand::ColsAtCompileTime == Dynamic&& Operand::MaxRowsAtCompileTime ==
-        Dynamic&& Operand::MaxColsAtCompileTime == Dynamic &&
-    !bool(blas_traits<Operand>::NeedToConjugate);
+    is_multiplied_by_arcslip<typename Operand::Scalar> && Operand::RowsAtCompileTime == Dynamic &&
+    Operand::ColsAtCompileTime == Dynamic && Operand::MaxRowsAtCompileTime == Dynamic &&
+    Operand::MaxColsAtCompileTime == Dynamic && !bool(blas_traits<Operand>::NeedToConjugate);
 
 template <class Lhs, class Rhs>
-requires has_columns_for_arcslip<Lhs> && has_columns_for_arcslip<Rhs>
+  requires has_columns_for_arcslip<Lhs> && has_columns_for_arcslip<Rhs>
 struct generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, GemmProduct> {
   using Scalar = typename Product<Lhs, Rhs>::Scalar;
   using Into = arcslip::continuation::Into;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -59,22 +60,22 @@ Eigen::Index pivot_row(const double* column, Eigen::Index diagonal, Eigen::Index
   }
 }
 
-void factorize_large(Matrix& A, Eigen::VectorXi& order, Eigen::VectorXi& exchanges) {
-  const auto n = static_cast<int>(A.rows());
-  order.setLinSpaced(n, 0, n - 1);
-  if (!A.allFinite()) {
-    A.diagonal().setConstant(std::numeric_limits<double>::quiet_NaN());
+void factorize_large(Eigen::Index n, double* A, int* order, int* exchanges) {
+  std::iota(order, order + n, 0);
+  Eigen::Map<Matrix> matrix(A, n, n);
+  if (!matrix.allFinite()) {
+    matrix.diagonal().setConstant(std::numeric_limits<double>::quiet_NaN());
     return;
   }
-  lapack::factorize(n, A.data(), exchanges.data());
-  for (int i = 0; i < n; ++i) std::swap(order[i], order[exchanges[i] - 1]);
+  lapack::factorize(static_cast<int>(n), A, exchanges);
+  for (Eigen::Index i = 0; i < n; ++i) std::swap(order[i], order[exchanges[i] - 1]);
 }
 
 }  // namespace
 
-void factorize_in_place(Matrix& A, Eigen::VectorXi& order, Eigen::VectorXi& work) {
-  if (A.rows() >= lapack::smallest_lu) return factorize_large(A, order, work);
-  widest([&]() __attribute__((always_inline)) { factorize(A.data(), order.data(), A.rows()); });
+void factorize_in_place(Eigen::Index n, double* A, int* order, int* work) {
+  if (n >= lapack::smallest_lu) return factorize_large(n, A, order, work);
+  widest([&]() __attribute__((always_inline)) { factorize(A, order, n); });
 }
 
 }  // namespace arcslip::continuation

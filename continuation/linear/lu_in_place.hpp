@@ -6,9 +6,9 @@
 
 namespace arcslip::continuation {
 
-/// A becomes L, whose diagonal of ones is not stored, and U; row i of L U is row order[i] of A. order, work:
-/// as many as rows. A singular A gives a zero pivot, and one that is not finite a pivot that is not. Does not
-/// allocate.
-void factorize_in_place(Matrix& A, Eigen::VectorXi& order, Eigen::VectorXi& work);
+/// A, n x n by columns, becomes L, whose diagonal of ones is not stored, and U; row i of L U is row order[i]
+/// of A. order, work: n. A singular A gives a zero pivot, and one that is not finite a pivot that is not.
+/// Does not allocate.
+void factorize_in_place(Eigen::Index n, double* A, int* order, int* work);
 
 }  // namespace arcslip::continuation

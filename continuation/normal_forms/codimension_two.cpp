@@ -3,6 +3,7 @@
 #include <arcslip/continuation/linear/shifted_solver.hpp>
 #include <arcslip/continuation/normal_forms/hopf_form.hpp>
 #include <arcslip/continuation/normal_forms/propagated_error.hpp>
+#include <arcslip/continuation/normal_forms/second_lyapunov.hpp>
 #include <arcslip/continuation/normal_forms/steady_form.hpp>
 
 #include <cmath>
@@ -144,7 +145,12 @@ Hopf hopf_form_near(Evaluator& at, const PlaceOfForms& place, double frequency) 
 
 GeneralizedHopf generalized_hopf_form(Evaluator& at, const PlaceOfForms& place, double frequency) {
   const Hopf hopf = hopf_form_near(at, place, frequency);
-  return {frequency, hopf.lyapunov, hopf.detuning};
+  GeneralizedHopf form{frequency, hopf.lyapunov, hopf.detuning};
+  if (!hopf.lyapunov.known()) return form;
+  HomologicalEquations equations(at, place);
+  if (const auto pair = equations.usable() ? equations.pair_near(Complex(0, frequency)) : std::nullopt)
+    form.second_lyapunov = second_lyapunov(at, place, *pair);
+  return form;
 }
 
 // q_1 and p_0 from J bordered by the null vectors.

@@ -1,5 +1,7 @@
 #include <arcslip/continuation/normal_forms/directional_derivatives.hpp>
 
+#include <arcslip/continuation/normal_forms/central_quotient.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,17 +17,6 @@ constexpr double first_share = 1.0 / 32;  // of the size of x: the first step of
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array<std::complex<double>, 4> powers_of_i{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-
-struct Stencil {
-  std::array<double, 4> distance, weight;  // of h, and of h^-order
-  std::size_t places;
-};
-
-constexpr Stencil central(int order) {
-  if (order == 1) return {{1, -1}, {0.5, -0.5}, 2};
-  if (order == 2) return {{1, 0, -1}, {1, -2, 1}, 3};
-  return {{2, 1, -1, -2}, {0.5, -1, 1, -0.5}, 4};
-}
 
 RealForm unknown_form(Eigen::Index n) {
   return {Vector::Constant(n, not_known), Vector::Constant(n, not_known)};
@@ -92,7 +83,7 @@ bool DirectionalDerivatives::value_at(double distance, const Vector& d, bool of_
 
 std::optional<ExtrapolatedDifference> DirectionalDerivatives::difference(int order, const Vector& d,
                                                                          bool of_jacobian) {
-  const Stencil stencil = central(order);
+  const CentralQuotient stencil = central_quotient(order);
   Vector g(n_), middle(n_);
   if (order == 2 && !value_at(0, d, of_jacobian, middle)) return {};
   return extrapolate(n_, first_share, [&](double h, Vector& quotient) {

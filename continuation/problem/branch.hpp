@@ -122,11 +122,13 @@ struct BogdanovTakens {
   Criticality criticality = Criticality::unknown;
 };
 
-/// A generalized Hopf (Bautin) point: l1 = 0. Cycles that meet there have a fold.
+/// A generalized Hopf (Bautin) point: l1 = 0, z' = i omega z + c z |z|^2 + c2 z |z|^4. Cycles that meet there
+/// have a fold, of stable and unstable ones; where l2 < 0 the stable ones are the larger.
 struct GeneralizedHopf {
   double frequency = 0;
-  Coefficient lyapunov{};  // l1, zero within its error
-  Coefficient detuning{};  // Im c of the normal form of Hopf
+  Coefficient lyapunov{};         // l1, zero within its error
+  Coefficient detuning{};         // Im c of the normal form of Hopf
+  Coefficient second_lyapunov{};  // l2 = Re c2 / omega; not known where J consists of differences
 };
 
 /// A zero-Hopf point: eigenvalues 0 and +- i frequency,

@@ -167,6 +167,7 @@ void fields_of_point_of_curve(auto& visit, auto& x) {
     visit("a", x.a), visit("b", x.b), visit("criticality", x.criticality);
   } else if constexpr (is<T, GeneralizedHopf>) {
     visit("frequency", x.frequency), visit("lyapunov", x.lyapunov), visit("detuning", x.detuning);
+    visit("second_lyapunov", x.second_lyapunov);
   } else if constexpr (is<T, ZeroHopf>) {
     visit("frequency", x.frequency), visit("g200", x.g200), visit("g011", x.g011), visit("g300", x.g300);
     visit("g111", x.g111), visit("g110_real", x.g110_real), visit("g110_imaginary", x.g110_imaginary);

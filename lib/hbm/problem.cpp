@@ -1,6 +1,7 @@
 #include <arcslip/hbm/problem.hpp>
 
 #include <arcslip/continuation/linear/finite.hpp>
+#include <arcslip/continuation/linear/linear_solvers.hpp>
 #include <arcslip/laws/piece_hash.hpp>
 
 #include <algorithm>
@@ -215,6 +216,16 @@ std::unique_ptr<HbmEvaluator> HbmProblem::hbm_evaluator() const {
 
 std::unique_ptr<continuation::Evaluator> HbmProblem::evaluator() const {
   return hbm_evaluator();
+}
+
+std::unique_ptr<continuation::LinearSolver> HbmProblem::linear_solver() const {
+  std::vector<int> groups;
+  for (int i = 0; i < blocks_; ++i) {
+    for (int k = 0; k < harmonics_.cosines(); ++k) groups.push_back(k);
+    for (int k = 0; k < harmonics_.sines(); ++k)
+      groups.push_back(harmonics_.cosine_index(harmonics_.sine_order(k)));
+  }
+  return continuation::dense_lu_by_groups(groups);
 }
 
 bool HbmProblem::chord_pays() const {

@@ -105,6 +105,8 @@ class HbmProblem final : public continuation::Problem {
   Vector scales() const override;
   std::unique_ptr<continuation::Evaluator> evaluator() const override;
   std::unique_ptr<HbmEvaluator> hbm_evaluator() const;
+  /// A dense LU that knows the harmonic of each unknown.
+  std::unique_ptr<continuation::LinearSolver> linear_solver() const override;
   /// Not where condensing the linear coordinates costs more than the Jacobian of the others.
   bool chord_pays() const override;
 

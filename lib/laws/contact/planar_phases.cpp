@@ -103,20 +103,19 @@ std::optional<DiscPhases::Bracket> DiscPhases::end_of_slip(const Disc& disc, con
   return {};
 }
 
-// By regula falsi after Illinois, with bisection every third step.
+// By Newton's method, with bisection where it leaves the bracket.
 double DiscPhases::root_in(const Disc& disc, const SlipPanel& panel, const Bracket& bracket) const {
   auto [below, f_below, above, f_above] = bracket;
-  double root = f_below > 0 ? above : below;
-  for (int i = 0; i < 80 && f_below > 0 && above - below > 1e-14; ++i) {
-    root = i % 3 == 2 ? 0.5 * (below + above) : below + f_below / (f_below - f_above) * (above - below);
-    const double f = spare(disc, panel, root).first;
-    if (f >= 0) {
-      below = root;
-      f_below = f;
-    } else {
-      above = root;
-      f_above = f;
-    }
+  if (!(f_below > 0)) return below;
+  const double enough = std::max(exact_end * panel.length(), 1e-14);
+  double root = below + f_below / (f_below - f_above) * (above - below);
+  for (int i = 0; i < 80 && above - below > enough; ++i) {
+    const auto [f, slope] = spare(disc, panel, root);
+    (f >= 0 ? below : above) = root;
+    const double step = slope < 0 ? f / slope : above - below;
+    const double next = root - step;
+    root = next >= below && next <= above ? next : 0.5 * (below + above);
+    if (std::abs(step) <= enough) break;
   }
   return std::min(root, panel.theta[panel_nodes - 1]);
 }

@@ -48,11 +48,41 @@ SlipPanel::Nodes radau() {
   return nodes;
 }
 
-void turn_to_psi(SlipPanel& panel) {
+// Of angles of less than 1e6 rad, to one or two units in the last place of 1, by the series about the nearest
+// multiple k pi/2. Without a branch: several are computed at once.
+void cosines_and_sines(const SlipPanel::Nodes& angles, SlipPanel::Nodes& cosines, SlipPanel::Nodes& sines) {
+  constexpr double to_integer = 6755399441055744.0;  // 1.5 2^52: a sum with it has no digits behind the point
+  constexpr double quarter[2] = {0x1.921fb544p+0,
+                                 0x1.0b4611a626331p-34};  // of a turn, the first exact times k
+  const double *x = angles.data(), two_over_pi = std::numbers::inv_pi * 2;
+  double *c = cosines.data(), *s = sines.data();
   for (int j = 0; j < panel_nodes; ++j) {
-    panel.outward[0][j] = std::cos(panel.psi[j]);
-    panel.outward[1][j] = std::sin(panel.psi[j]);
+    const double k = (x[j] * two_over_pi + to_integer) - to_integer;
+    const double r = (x[j] - k * quarter[0]) - k * quarter[1], z = r * r;
+    const double sine =
+        r +
+        r * z *
+            (-1.0 / 6 +
+             z * (1.0 / 120 + z * (-1.0 / 5040 +
+                                   z * (1.0 / 362880 + z * (-1.0 / 39916800 +
+                                                            z * (1.0 / 6227020800 - z / 1307674368000.0))))));
+    const double cosine =
+        1 - 0.5 * z +
+        z * z *
+            (1.0 / 24 +
+             z * (-1.0 / 720 + z * (1.0 / 40320 + z * (-1.0 / 3628800 +
+                                                       z * (1.0 / 479001600 + z * (-1.0 / 87178291200.0 +
+                                                                                   z / 20922789888000.0))))));
+    const double half = 0.5 * k, quarters = k - 4 * ((0.25 * k + to_integer) - to_integer);  // -2 to 2
+    const bool odd = half != (half + to_integer) - to_integer;
+    const double first = odd ? sine : cosine, second = odd ? cosine : sine;
+    c[j] = quarters == 0 || quarters == -1 ? first : -first;
+    s[j] = quarters == 0 || quarters == 1 ? second : -second;
   }
+}
+
+void turn_to_psi(SlipPanel& panel) {
+  cosines_and_sines(panel.psi, panel.outward[0], panel.outward[1]);
 }
 
 // n at the nodes, where psi becomes less by a step.
@@ -160,10 +190,10 @@ void SlipCollocation::guess(const Disc& disc, SlipPanel& panel) const {
 void SlipCollocation::place(const Disc& disc, double begin, double end, SlipPanel& panel) const {
   panel.begin = begin;
   panel.end = end;
+  panel.theta = begin + 0.5 * (end - begin) * (1 + nodes_.array());
+  panel.theta[panel_nodes - 1] = end;
+  cosines_and_sines(panel.theta, panel.cosine, panel.sine);
   for (int j = 0; j < panel_nodes; ++j) {
-    panel.theta[j] = j == panel_nodes - 1 ? end : begin + 0.5 * (end - begin) * (1 + nodes_[j]);
-    panel.cosine[j] = std::cos(panel.theta[j]);
-    panel.sine[j] = std::sin(panel.theta[j]);
     const DiscPoint p = disc.at(panel.cosine[j], panel.sine[j]);
     panel.h[j] = std::max(p.h, 0.0);
     panel.dh[j] = p.dh;

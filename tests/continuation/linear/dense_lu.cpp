@@ -29,6 +29,93 @@ TEST_CASE("bordered solves and transposed solves leave residuals at rounding lev
     }
 }
 
+namespace {
+
+// Unknown i is of group i % groups. Of ten equations some couple groups, at random, the others do not.
+Matrix coupled_in_groups(int n, int groups, int coupling_of_ten) {
+  Matrix J = Matrix::Random(n, n);
+  J.diagonal().array() += 4;
+  for (int i = 0; i < n; ++i)
+    if (i * 7 % 10 >= coupling_of_ten)
+      for (int j = 0; j < n; ++j)
+        if (j % groups != i % groups) J(i, j) = 0;
+  return J;
+}
+
+std::vector<int> groups_of(int n, int groups) {
+  std::vector<int> of(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) of[static_cast<std::size_t>(i)] = i % groups;
+  return of;
+}
+
+}  // namespace
+
+TEST_CASE("with groups, bordered and transposed solves leave residuals at rounding level as without") {
+  for (int n : {12, 100, 150, 231})
+    for (int m : {0, 1, 2})
+      for (int groups : {1, 2, 4, 7})
+        for (int coupling : {0, 1, 4, 9, 10}) {
+          const Matrix J = coupled_in_groups(n, groups, coupling);
+          const Borders borders = random_borders(n, m);
+          const Matrix B = whole(J, borders);
+          const Vector b = Vector::Random(n + m);
+          const auto lu = dense_lu_by_groups(groups_of(n, groups)), plain = dense_lu();
+          REQUIRE(lu->factorize(J, borders));
+          REQUIRE(plain->factorize(J, borders));
+          Vector x = b;
+          lu->solve(x);
+          CHECK((B * x - b).norm() < 1e-13 * B.norm() * x.norm());
+          Vector y = b;
+          REQUIRE(lu->solve_transposed(y));
+          CHECK((B.transpose() * y - b).norm() < 1e-13 * B.norm() * y.norm());
+          CHECK(lu->determinant_sign() == plain->determinant_sign());
+        }
+}
+
+TEST_CASE("one solver follows equations that begin and cease to couple groups") {
+  const int n = 140, groups = 5;
+  const auto lu = dense_lu_by_groups(groups_of(n, groups));
+  for (int coupling : {3, 10, 0, 7, 3, 1}) {
+    const Matrix J = coupled_in_groups(n, groups, coupling);
+    const Borders borders = random_borders(n, 1);
+    const Vector b = Vector::Random(n + 1);
+    REQUIRE(lu->factorize(J, borders));
+    Vector x = b;
+    lu->solve(x);
+    CHECK((whole(J, borders) * x - b).norm() < 1e-13 * whole(J, borders).norm() * x.norm());
+  }
+}
+
+TEST_CASE("where the equations of a group are singular by themselves, the others take part") {
+  const int n = 120, groups = 3;
+  for (double e : {0.0, 1e-14, 1e-4, 0.5}) {
+    Matrix J = coupled_in_groups(n, groups, 3);
+    // Rows 9 and 12 stay within group 0, and depend on each other but for unknown 30, which couples groups.
+    J.row(9).setZero();
+    J.row(12).setZero();
+    J(9, 9) = e;
+    J(9, 12) = 1;
+    J(12, 9) = e * e;
+    J(12, 12) = e;
+    J(12, 30) = 1;
+    const Borders borders = random_borders(n, 1);
+    const Matrix B = whole(J, borders);
+    const Vector b = Vector::Random(n + 1);
+    const auto lu = dense_lu_by_groups(groups_of(n, groups));
+    REQUIRE(lu->factorize(J, borders));
+    Vector x = b;
+    lu->solve(x);
+    CHECK((B * x - b).norm() < 1e-12 * B.norm() * x.norm());
+  }
+}
+
+TEST_CASE("a Jacobian that has not as many unknowns as are in groups is refused") {
+  const auto lu = dense_lu_by_groups(groups_of(10, 2));
+  CHECK_THROWS_WITH(lu->factorize(Matrix(Matrix::Identity(9, 9)), Borders(9, 1)),
+                    "the Jacobian has 9 unknowns, and 10 are in groups");
+  CHECK_THROWS_WITH(dense_lu_by_groups({0, -1}), "the groups of unknowns are numbers from 0 on");
+}
+
 TEST_CASE("a matrix of rows that follow each other in a circle is solved without a rounding error") {
   for (int n : {1, 2, 3, 4, 5, 9, 50, 96, 97, 120}) {
     Matrix J = Matrix::Zero(n, n);

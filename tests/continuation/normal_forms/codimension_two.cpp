@@ -193,6 +193,69 @@ TEST_CASE("a generalized Hopf point lies where the cubic term of Bautin's normal
 
 namespace {
 
+// Bautin's normal form Z' = (p1 + 2 i) Z + (p2 + 0.3 i) Z |Z|^2 + (e + 0.4 i) Z |Z|^4 with v' = -1.5 v + Z
+// Z*, in coordinates u in which y = Psi(u) is not linear, Psi'(0) = 1, with J by complex steps. |q| = 1 makes
+// Z sqrt(2) z.
+template <class T>
+Eigen::Matrix<T, 3, 1> bautin_in_curved_coordinates(const Eigen::Matrix<T, 3, 1>& u, In p, double e) {
+  using Vector3 = Eigen::Matrix<T, 3, 1>;
+  const T a = u[0], b = u[1], c = u[2];
+  const Vector3 y{a + 0.3 * b * b - 0.2 * a * c, b + 0.4 * a * a + 0.25 * a * b * c - 0.1 * c * c,
+                  c + 0.2 * a * b + 0.15 * b * b * b};
+  Eigen::Matrix<T, 3, 3> by;
+  by << 1.0 - 0.2 * c, 0.6 * b, -0.2 * a, 0.8 * a + 0.25 * b * c, 1.0 + 0.25 * a * c, 0.25 * a * b - 0.2 * c,
+      0.2 * b, 0.2 * a + 0.45 * b * b, T(1);
+  const T square = y[0] * y[0] + y[1] * y[1];
+  const T real = p[0] + p[1] * square + e * square * square,
+          imaginary = 2.0 + 0.3 * square + 0.4 * square * square;
+  const Vector3 f{real * y[0] - imaginary * y[1], imaginary * y[0] + real * y[1], square - 1.5 * y[2]};
+  Eigen::Matrix<T, 3, 3> cofactors;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int r = (i + 1) % 3, s = (i + 2) % 3, k = (j + 1) % 3, l = (j + 2) % 3;
+      cofactors(i, j) = by(r, k) * by(s, l) - by(r, l) * by(s, k);
+    }
+  const T determinant = by(0, 0) * cofactors(0, 0) + by(0, 1) * cofactors(0, 1) + by(0, 2) * cofactors(0, 2);
+  return cofactors.transpose() * f / determinant;
+}
+
+std::shared_ptr<const Problem> bautin_problem(double e, bool exact) {
+  const auto residual = [e](In u, In p, Out F) {
+    F = bautin_in_curved_coordinates<double>(Eigen::Vector3d(u), p, e);
+  };
+  const std::vector<Parameter> parameters{parameter("p1", 0), parameter("p2", 0)};
+  if (!exact) return from_functions(3, parameters, residual);
+  return from_functions(3, parameters, residual, [e](In u, In p, Eigen::Ref<Matrix> J) {
+    for (int j = 0; j < 3; ++j) {
+      Eigen::Vector3cd x = u.cast<Z>();
+      x[j] += Z(0, 1e-100);
+      J.col(j) = bautin_in_curved_coordinates<Z>(x, p, e).imag() * 1e100;
+    }
+  });
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the second Lyapunov coefficient is that of Bautin's normal form in any coordinates, where J is exact") {
+  for (const double e : {-1.0, 0.7, 0.02}) {
+    const auto hopf_points = [&](bool exact) {
+      const Branch curve = hopf_curve_of(bautin_problem(e, exact),
+                                         {Vector::Zero(3), Vector{{-0.5, -0.4}}, 0, 1}, -0.5, 0.6, 0.5);
+      REQUIRE(curve.events.size() == 1);
+      return std::get<GeneralizedHopf>(curve.events[0].data);
+    };
+    const Coefficient l2 = hopf_points(true).second_lyapunov;
+    REQUIRE(l2.known());
+    CHECK(std::abs(l2.value - 2 * e) < 1e-7);
+    CHECK(std::abs(l2.value - 2 * e) <= l2.error);
+    CHECK(l2.error < 1e-5);
+    CHECK_FALSE(hopf_points(false).second_lyapunov.known());
+  }
+}
+
+namespace {
+
 struct ZeroHopfNumbers {
   double s = -0.8, g = 0.3, f = -0.5;  // x' = p1 + x^2 + s |Z|^2 + g x^3 + f x |Z|^2 + alpha x v
   double theta = 1.2, turning = 0.4, e = 0.25,
@@ -316,7 +379,7 @@ TEST_CASE("points of codimension 2 survive saving") {
   state.branch.events.push_back(event);
   event.data = BogdanovTakens{{1, 2}, {3, 4}, Criticality::subcritical};
   state.branch.events.push_back(event);
-  event.data = GeneralizedHopf{1, {2, 3}, {4, 5}};
+  event.data = GeneralizedHopf{1, {2, 3}, {4, 5}, {6, 7}};
   state.branch.events.push_back(event);
   event.data = Cusp{{6, 7}};
   state.branch.events.push_back(event);
@@ -328,5 +391,6 @@ TEST_CASE("points of codimension 2 survive saving") {
   CHECK(std::get<BogdanovTakens>(kept.branch.events[2].data).b.value == 3);
   CHECK(std::get<BogdanovTakens>(kept.branch.events[2].data).criticality == Criticality::subcritical);
   CHECK(std::get<GeneralizedHopf>(kept.branch.events[3].data).detuning.error == 5);
+  CHECK(std::get<GeneralizedHopf>(kept.branch.events[3].data).second_lyapunov.value == 6);
   CHECK(std::get<Cusp>(kept.branch.events[4].data).cubic.error == 7);
 }

@@ -1,0 +1,160 @@
+#include <arcslip/continuation/normal_forms/second_lyapunov.hpp>
+
+#include <arcslip/continuation/normal_forms/central_quotient.hpp>
+#include <arcslip/continuation/normal_forms/propagated_error.hpp>
+#include <arcslip/continuation/problem/extrapolation.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <numbers>
+
+namespace arcslip::continuation {
+namespace {
+
+constexpr int highest_order = 5;          // order
+constexpr Eigen::Index angles = 6;        // of half a turn
+constexpr double first_radius = 1.0 / 4;  // of that at which H changes an unknown by its size
+
+double factorial(int m) {
+  return m < 2 ? 1 : m * factorial(m - 1);
+}
+
+class CentreManifold {
+ public:
+  CentreManifold(Evaluator& at, const PlaceOfForms& place, const Eigenpair& pair, const Jacobian& J)
+      : at_(at), place_(place), n_(place.u.size()), pair_(pair), solver_(J), piece_(at.piece()) {
+    const Vector sizes = place.u.cwiseAbs().cwiseMax(place.scales.head(n_));
+    unit_ = 1 / (2 * pair.right.cwiseAbs().cwiseQuotient(sizes).maxCoeff());
+    for (auto& row : a_)
+      for (Term& term : row) term.value = ComplexVector::Zero(n_), term.error = Vector::Zero(n_);
+    a_[1][0].value = unit_ * pair.right;
+  }
+
+  // c2 of z in units of unit_. False: not known.
+  bool compute(PropagatedError& c2) {
+    for (int m = 2; m <= highest_order; ++m) {
+      if (!derivatives(m)) return false;
+      if (m == highest_order) {
+        c2.add(1 / unit_, coefficient(3, 2), lower_errors_);
+        return true;
+      }
+      for (int k = 0; 2 * k <= m; ++k)
+        if (!add_term(m - k, k)) return false;
+    }
+    return false;
+  }
+  double unit() const { return unit_; }
+
+ private:
+  using Term = ComplexForm;
+
+  static Complex turn(double angle) { return std::polar(1.0, angle); }
+
+  // H and dH/dr at r e^(i phi), up to the highest_order order that is known.
+  void place_at(double r, double phi, Vector& H, Vector& by_r) const {
+    H = place_.u;
+    by_r.setZero();
+    for (int m = 1; m < highest_order; ++m)
+      for (int k = 0; 2 * k <= m; ++k) {
+        const int j = m - k;
+        const double share = j == k ? 1 : 2;  // the conjugate term is that of (k, j)
+        const Vector term = share * (turn((j - k) * phi) * a_[index(j)][index(k)].value).real();
+        H += std::pow(r, m) * term;
+        by_r += m * std::pow(r, m - 1) * term;
+      }
+  }
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  bool value_at(double r, double phi, Eigen::Ref<Vector> g) {
+    Vector H(n_), by_r(n_), product(n_);
+    place_at(r, phi, H, by_r);
+    if (at_.move_to(H, place_.p, Needs::jacobian) != Evaluated::ok || at_.piece() != piece_) return false;
+    apply(at_.jacobian(), by_r, product);
+    g = product;
+    return true;
+  }
+
+  // derivatives_: of J dH/dr of order m - 1 by r, at 0, one angle after another.
+  bool derivatives(int m) {
+    const CentralQuotient stencil = central_quotient(m - 1);
+    Vector g(n_);
+    const auto found = extrapolate(angles * n_, first_radius, [&](double h, Vector& quotient) {
+      quotient.setZero();
+      for (Eigen::Index l = 0; l < angles; ++l)
+        for (std::size_t i = 0; i < stencil.places; ++i) {
+          const double phi = std::numbers::pi * static_cast<double>(l) / angles;
+          if (!value_at(stencil.distance[i] * h, phi, g)) return false;
+          quotient.segment(l * n_, n_) += stencil.weight[i] * g;
+        }
+      quotient /= std::pow(h, m - 1);
+      return true;
+    });
+    if (!found) return false;
+    derivatives_ = *found;
+    return true;
+  }
+
+  // f_jk of the order of derivatives_.
+  Term coefficient(int j, int k) const {
+    Term f{ComplexVector::Zero(n_), Vector::Zero(n_)};
+    const double weight = 1 / (angles * factorial(j + k));
+    for (Eigen::Index l = 0; l < angles; ++l) {
+      const double phi = std::numbers::pi * static_cast<double>(l) / angles;
+      f.value += weight * turn((k - j) * phi) * derivatives_.value.segment(l * n_, n_);
+      f.error += weight * derivatives_.error.segment(l * n_, n_);
+    }
+    return f;
+  }
+
+  bool add_term(int j, int k) {
+    Term f = coefficient(j, k);
+    Term& a = a_[index(j)][index(k)];
+    if (j == 2 && k == 1) {
+      c1_ = pair_.left.dot(f.value) / unit_;  // f - c1 a_10
+      if (!solver_.factorize(pair_.value, pair_.right, pair_.left)) return false;
+      Term right{ComplexVector::Zero(n_ + 1), Vector::Zero(n_ + 1)};
+      right.value.head(n_) = c1_ * a_[1][0].value - f.value;
+      right.error.head(n_) = f.error;
+      const Term solution = solved(solver_, right);
+      a = {solution.value.head(n_), solution.error.head(n_)};
+    } else {
+      if (k > 0 && j + k > 2)
+        f.value -= ((j - 1.0) * c1_ + (k - 1.0) * std::conj(c1_)) * a_[index(j - 1)][index(k - 1)].value;
+      if (!solver_.factorize(Complex(0, (j - k) * pair_.value.imag()))) return false;
+      a = solved(solver_, {-f.value, f.error});
+    }
+    lower_errors_ += relative_error(a);
+    return a.value.allFinite();
+  }
+
+  Evaluator& at_;
+  const PlaceOfForms& place_;
+  const Eigen::Index n_;
+  const Eigenpair& pair_;
+  ShiftedSolver solver_;
+  const std::uint64_t piece_;
+  double unit_ = 1, lower_errors_ = 0;
+  Complex c1_ = 0;  // of z in units of unit_
+  std::array<std::array<Term, highest_order>, highest_order> a_;
+  ExtrapolatedDifference derivatives_;
+};
+
+}  // namespace
+
+Coefficient second_lyapunov(Evaluator& at, const PlaceOfForms& place, const Eigenpair& pair) try {
+  if (at.by_differences().jacobian) return {};
+  if (at.move_to(place.u, place.p, Needs::jacobian) != Evaluated::ok) return {};
+  if (std::holds_alternative<const Operator*>(at.jacobian())) return {};
+  const Jacobian J = at.jacobian();
+  CentreManifold manifold(at, place, pair, J);
+  PropagatedError c2(pair.left);
+  if (!manifold.compute(c2)) return {};
+  const double scale = std::pow(manifold.unit(), 4) * pair.value.imag();
+  return {c2.value().real() / scale, c2.error() / scale};
+} catch (const std::exception&) {  // no derivatives, as it says
+  return {};
+}
+
+}  // namespace arcslip::continuation
