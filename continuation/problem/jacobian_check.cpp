@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <variant>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -112,6 +113,17 @@ double without_pattern(Eigen::Index j) {
   return bits >> 31 ? size : -size;
 }
 
+// sum_j |J_ij u_j|, the size of the terms of F_i, also of those that cancel in it; 0: not known.
+void size_of_terms(const Jacobian& J, In u, Vector& size) {
+  size.setZero();
+  if (const auto* dense = std::get_if<Matrix>(&J))
+    for (Eigen::Index j = 0; j < u.size(); ++j) size += std::abs(u[j]) * dense->col(j).cwiseAbs();
+  if (const auto* sparse = std::get_if<SparseMatrix>(&J))
+    for (Eigen::Index j = 0; j < u.size(); ++j)
+      for (SparseMatrix::InnerIterator entry(*sparse, j); entry; ++entry)
+        size[entry.row()] += std::abs(entry.value() * u[j]);
+}
+
 class Doubt {
  public:
   Doubt(const Problem& problem, In u, In p, int free)
@@ -129,7 +141,8 @@ class Doubt {
         F_d_(n_),
         bend_(n_),
         rounding_(n_),
-        given_(n_) {}
+        given_(n_),
+        noise_(Vector::Zero(n_)) {}
 
   JacobianError find() {
     if (here_->move_to(u_, p_, Needs::jacobian) != Evaluated::ok) return {};
@@ -163,11 +176,14 @@ class Doubt {
   JacobianError find_by_parameter() {
     const double p = std::abs(p_[free_]), size = std::max(p, parameter().change());
     Verdict wrong;
-    Vector along = Vector::Zero(n_ + 1);
+    Vector along = Vector::Zero(n_ + 1), terms(n_);
     agreed_.setConstant(n_, false);
+    size_of_terms(here_->jacobian(), u_, terms);
     for (double share = 1; share > last_share && share * size * looks_reach > p; share *= next_share) {
       Vector d = Vector::Zero(n_ + 1);
       d[n_] = share * size;
+      if (here_->by_differences().parameters)
+        noise_ = share * std::numeric_limits<double>::epsilon() / difference_step * terms;
       const Verdict found = judge(d, share < 1);
       if (found.right) return {};
       if (!found.wrong) continue;
@@ -259,7 +275,7 @@ class Doubt {
       for (Eigen::Index i = 0; i < n_; ++i) {
         const double e = std::abs(now.error[i]);
         if (!(e > largest * now.size[i]) || now.bend[i] > one_sided * e ||
-            !(e > roundings * below.rounding[i]) ||
+            !(e > roundings * std::max(below.rounding[i], noise_[i])) ||
             (only_changing && std::abs(given_[i] - now.error[i]) < least_change * std::abs(given_[i])) ||
             std::abs(below.error[i] - now.error[i]) > same * e ||
             std::abs(above.error[i] - now.error[i]) > same * e)
@@ -309,6 +325,7 @@ class Doubt {
   int free_;
   std::unique_ptr<Evaluator> here_, nearby_;
   Vector u_, p_, at_u_, at_p_, F_p_, plus_, F_d_, bend_, rounding_, given_;
+  Vector noise_;  // along d, of a dF/dp that is itself a difference, by the terms that cancel in F
   std::uint64_t piece_ = 0;
   Eigen::Array<bool, Eigen::Dynamic, 1> agreed_;  // rows, with any difference
 };

@@ -194,6 +194,28 @@ TEST_CASE("unknowns and equations of extreme sizes accuse no right Jacobian, and
       }
 }
 
+TEST_CASE("terms of p that cancel in F accuse no dF/dp by differences, which is their rounding") {
+  // The voltage that a generator holds between its limits, Q - (Q + 1 - V) = 0, over the load.
+  for (const bool is_sparse : {false, true})
+    for (int k = 0; k < 200; ++k) {
+      Functions f;
+      f.size = 2;
+      f.parameters = {parameter("load", 0, 4)};
+      f.residual = [](In u, In p, Out F) {
+        const double Q = 0.3 * u[1] + 0.7 * p[0];
+        F << Q - (Q + 1 - u[0]), u[1] - 2;
+      };
+      if (is_sparse)
+        f.sparse_jacobian = [](In, In, SparseMatrix& J) { J.setIdentity(); };
+      else
+        f.jacobian = [](In, In, Eigen::Ref<Matrix> J) { J.setIdentity(); };
+      const JacobianError found =
+          doubt_jacobian(*from_functions(f), Vector{{1.0, 2.0}}, Vector{{0.005 * k}}, 0);
+      CAPTURE(is_sparse, k, found.message);
+      CHECK(found.message.empty());
+    }
+}
+
 TEST_CASE("curves of folds, whose Jacobians come from differences, are not doubted") {
   const Branch curve = trace(folds(cusp(), 0), {Vector{{-0.6, 0.4}}, Vector{{0.0, 1.0}}, 1, -1},
                              window(-1, 2), {cusp_monitor()});
