@@ -7,7 +7,12 @@
 //   u = +-2 sqrt(-2 r / (38 b^2 / 9 - 3)) sech(x sqrt(-r) / 2) cos x
 //
 // and gain a wave on each side from fold to fold, which approach r = -0.3390 on the left and r = -0.2593 on
-// the right. The points are in the middle of n equal intervals; differences are of order 4.
+// the right. Between these, at the Maxwell point r = -0.3128, the periodic pattern of least energy
+//
+//   E = < -r u^2 / 2 + (u + u_xx)^2 / 2 - b u^3 / 3 + u^4 / 4 >
+//
+// among all wave numbers k has the energy of u = 0. Points are in the middle of equal intervals, differences
+// of order 4.
 //
 //   snaking [n = 500]
 
@@ -17,6 +22,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 using namespace arcslip::continuation;
@@ -25,22 +31,22 @@ namespace {
 
 constexpr double b = 1.8, L = 100;
 
-// 1 + d^2/dx^2, of functions that are even at both ends.
-SparseMatrix one_plus_second_derivative(int n) {
-  const double h = L / n, weights[] = {-30 / (12 * h * h), 16 / (12 * h * h), -1 / (12 * h * h)};
-  SparseMatrix A(n, n);
-  A.setIdentity();
+// d^2/dx^2 at n points h apart, of functions that are even at both ends.
+SparseMatrix second_derivative(int n, double h) {
+  const double weights[] = {-30 / (12 * h * h), 16 / (12 * h * h), -1 / (12 * h * h)};
+  SparseMatrix D(n, n);
   for (int i = 0; i < n; ++i)
     for (int k = -2; k <= 2; ++k) {
       const int j = i + k;
-      A.coeffRef(i, j < 0 ? -1 - j : j < n ? j : 2 * n - 1 - j) += weights[std::abs(k)];
+      D.coeffRef(i, j < 0 ? -1 - j : j < n ? j : 2 * n - 1 - j) += weights[std::abs(k)];
     }
-  A.makeCompressed();
-  return A;
+  D.makeCompressed();
+  return D;
 }
 
 std::shared_ptr<const Problem> swift_hohenberg(int n) {
-  const SparseMatrix A = one_plus_second_derivative(n);
+  SparseMatrix A = second_derivative(n, L / n);
+  A.diagonal().array() += 1;
   Functions equation;
   equation.size = n;
   equation.parameters = {{"r", ""}};
@@ -66,6 +72,39 @@ Vector first_guess(int n, double r, double sign) {
   return u;
 }
 
+// A pattern over half a wave of the wave number k, which is the last unknown: dE/dk = 0.
+int maxwell_point() {
+  const int n = 60;
+  const double h = std::numbers::pi / n;
+  const SparseMatrix D = second_derivative(n, h);
+  Functions pattern;
+  pattern.size = n + 1;
+  pattern.parameters = {{"r", ""}};
+  pattern.residual = [=](In v, In p, Out F) {
+    const Vector u = v.head(n), Du = D * u;
+    const double k = v[n];
+    const Vector w = u + k * k * Du;
+    F.head(n) = (p[0] * u.array() + b * u.array().square() - u.array().cube()).matrix() - w - k * k * (D * w);
+    F[n] = k * w.dot(Du) / n;
+  };
+  const Monitor energy{
+      .name = "maxwell", .value = [=](const Accepted& now) {
+        const Eigen::ArrayXd u = now.u.head(n);
+        const Vector w = now.u.head(n) + now.u[n] * now.u[n] * (D * now.u.head(n));
+        return w.squaredNorm() / 2 -
+               (now.p[0] * u.square() / 2 + b * u.cube() / 3 - u.square().square() / 4).sum();
+      }};
+  Vector v(n + 1);
+  for (int i = 0; i < n; ++i) v[i] = 0.3 + std::cos((i + 0.5) * h);
+  v[n] = 1;
+  const Branch branch =
+      trace(from_functions(std::move(pattern)), {.u = v, .p = Vector{{-0.25}}, .direction = -1},
+            {.lower = -0.35, .upper = -0.2}, {energy});
+  for (const Event& event : branch.events)
+    std::printf("maxwell point at r = %.10f, k = %.10f\n", event.point.parameter, event.point.u[n]);
+  return branch.events.empty();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -88,4 +127,5 @@ int main(int argc, char** argv) {
                 sign > 0 ? "maximum" : "minimum", folds, snake.counts.points, snake.counts.residuals,
                 snake.counts.factorizations, snake.stop.message.c_str());
   }
+  return maxwell_point();
 }
