@@ -44,6 +44,7 @@ Corrector::Corrector(const Problem& problem, Vector p, int free, const NewtonOpt
       evaluator_(problem.evaluator()),
       solver_(make_solver ? make_solver() : problem.linear_solver()),
       borders_(problem.size(), 1),
+      state_(problem.initial_state()),
       p_(std::move(p)),
       weights_(problem.size() + 1),
       F_p_(problem.size()),
@@ -141,6 +142,7 @@ bool Corrector::factorize(const Vector& v, const Vector& row) {
     }
     memory_.factors.v = v;
     memory_.factors.row = row;
+    memory_.factors.state = state_;
     return regular;
   } catch (const std::exception& thrown) {
     failure_ = thrown.what();
@@ -163,6 +165,23 @@ void Corrector::back_substitute(Vector& x) const {
     failure_ = thrown.what();
     x.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
+}
+
+void Corrector::set_state(const Vector& state) {
+  state_ = state;
+  evaluator_->set_state(state);
+}
+
+bool Corrector::next_state(const Vector& v, Vector& state) {
+  if (!evaluate(v, Needs::residual)) return false;
+  try {
+    evaluator_->next_state(state);
+  } catch (const std::exception& thrown) {
+    failure_ = thrown.what();
+    return false;
+  }
+  if (!all_finite(state)) failure_ = "the state is not finite";
+  return failure_.empty();
 }
 
 bool Corrector::piece(std::uint64_t& piece) {
@@ -203,8 +222,14 @@ bool Corrector::linearize(const Vector& v, const Vector& row) {
 
 void Corrector::restore(const FactorMemory& memory) {
   const Counts before = counts_;
-  if (memory.pivots_kept) linearize(memory.pivots.v, memory.pivots.row);
-  if (memory.factors.v.size() != 0) linearize(memory.factors.v, memory.factors.row);
+  const Vector now = state_;
+  const auto repeat = [this](const Linearization& made) {
+    if (made.state.size() != 0) set_state(made.state);
+    linearize(made.v, made.row);
+  };
+  if (memory.pivots_kept) repeat(memory.pivots);
+  if (memory.factors.v.size() != 0) repeat(memory.factors);
+  if (now.size() != 0) set_state(now);
   counts_ = before;
   memory_ = memory;
 }

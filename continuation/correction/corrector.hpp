@@ -52,7 +52,8 @@ struct Correction {
 
 /// The point and border row of a factorized matrix; empty if none.
 struct Linearization {
-  Vector v, row;  // n + 1
+  Vector v, row;   // n + 1
+  Vector state{};  // of the problem, which it was made from
 };
 
 /// State that a corrector carries from one correction to the next: the point of its factors, the point of the
@@ -100,6 +101,13 @@ class Corrector {
 
   /// Moves the evaluator (not the factors) to v.
   bool move_to(const Vector& v, Needs needs = Needs::residual) { return evaluate(v, needs); }
+
+  /// The problem's state, for what follows; the factors stay.
+  void set_state(const Vector& state);
+
+  /// The state that v leaves if it is accepted. False if the problem cannot be evaluated there, or the state
+  /// is not finite: see failure().
+  bool next_state(const Vector& v, Vector& state);
 
   /// The smooth piece of the evaluator's last point. False if the problem throws: see failure().
   bool piece(std::uint64_t& piece);
@@ -180,6 +188,7 @@ class Corrector {
   std::unique_ptr<Evaluator> evaluator_;
   std::unique_ptr<LinearSolver> solver_;
   Borders borders_;
+  Vector state_;  // of the problem; empty: none
   Vector p_, weights_, F_p_, dv_, next_, trial_, across_;
   Vector from_factors_;    // to the solution, of the factors of the correction before; 0: not known
   mutable Vector metric_;  // M x of the last product

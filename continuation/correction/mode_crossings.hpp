@@ -43,6 +43,9 @@ class ModeCounter {
   std::optional<ModeCrossings> between(const CurvePoint& from, const CurvePoint& to, double length,
                                        const Vector& row, const LinearSolver& at_to);
 
+  /// The problem's state, for the steps that follow.
+  void set_state(const Vector& state) { at_->set_state(state); }
+
   /// Whether all modes are computed, so that none is missed.
   bool counts_all() const;
 

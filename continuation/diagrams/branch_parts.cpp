@@ -54,6 +54,7 @@ void append(Branch& branch, Branch&& next) {
   std::move(next.points.begin(), next.points.end(), std::back_inserter(branch.points));
   std::move(next.events.begin(), next.events.end(), std::back_inserter(branch.events));
   branch.stop = std::move(next.stop);
+  branch.state = std::move(next.state);
   for (std::string& warning : next.warnings)
     if (std::find(branch.warnings.begin(), branch.warnings.end(), warning) == branch.warnings.end())
       branch.warnings.push_back(std::move(warning));

@@ -244,6 +244,9 @@ void DiagramTracer::name_events(int branch) {
 Diagram trace_diagram(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
                       const DiagramOptions& diagram, std::vector<Monitor> monitors, Observer observer) {
   if (!options.keep_points) throw std::invalid_argument("a diagram needs its points: keep_points is false");
+  if (problem && problem->initial_state().size() != 0)
+    throw std::invalid_argument(
+        "a diagram is of a problem without a state: branches that meet have left different ones");
   if (diagram.depth < 0)
     throw std::invalid_argument("the depth of a diagram is " + std::to_string(diagram.depth) +
                                 ", must be >= 0");

@@ -22,6 +22,8 @@ struct Point {
   int iterations = 0;                  // of the corrector
   double correction = 0;               // relative size of the last correction
   std::optional<Spectrum> spectrum{};  // with Options::stability
+  Vector state{};  // with Options::keep_states: that the problem is in from here on. Of a kink within a step,
+                   // which is a trial: that it was computed from. Of events: none
 };
 
 /// A coefficient of a normal form with an estimate of its error. Not a number: not known, as where F has no
@@ -231,6 +233,7 @@ struct Branch {
   BranchStop stop;
   Counts counts;
   std::string linear_solver;  // name of the linear solver used
+  Vector state{};             // of a problem with a state: that the last point left
 
   /// Reasons to doubt the branch, one sentence each: a monitor that is NaN at a point, so that zeros next to
   /// it are missed; an event that is not located (Event::located), the first one of each monitor; a wrong

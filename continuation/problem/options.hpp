@@ -87,6 +87,7 @@ struct Options {
   double seconds = 0;              // maximum wall time, a deadline of `control`; 0: no limit
   std::size_t memory = 0;          // maximum bytes of the points kept; 0: no limit
   bool keep_points = true;         // false: points keep neither unknowns nor tangent; only observers see them
+  bool keep_states = false;        // of a problem with a state: points keep it (Point::state)
   double largest_state = 1e12;     // |u| in scales
   double event_tolerance = 1e-12;  // of the free parameter at an event, relative
   MakeLinearSolver linear_solver{};  // none: the problem's own, or the default for its Jacobian

@@ -109,6 +109,14 @@ class Evaluator {
   /// The smooth piece of a piecewise smooth F at the last point; equal numbers mean the same piece.
   virtual std::uint64_t piece() const { return 0; }
 
+  /// Of a problem with a state (Problem::initial_state()): F is from now on that after the last accepted
+  /// point, which left this state. Every evaluation in between is a trial, and leaves the state as it is.
+  virtual void set_state(In state) { static_cast<void>(state); }
+
+  /// The state that the last point leaves if it is accepted, from the one that was set. Until the next
+  /// set_state() F goes by that one.
+  virtual void next_state(Out state) const { static_cast<void>(state); }
+
   /// Whether (u, p) is in this piece, which may cost less than F: many such tests locate a kink. Until the
   /// next move_to() there is no last point.
   virtual Evaluated test_piece(In u, In p, std::uint64_t piece, PieceTest test, bool& inside);
@@ -141,7 +149,15 @@ class Problem {
     return false;
   }
 
+  /// In the initial state, if there is one.
   virtual std::unique_ptr<Evaluator> evaluator() const = 0;
+
+  /// What F depends on besides (u, p), as many numbers as it takes: the damage, plastic strains and slips
+  /// that the points before have left, or a reference that follows the branch. Here those before the first
+  /// point. A trace keeps them: they change when a point is accepted, and by nothing else. At a point that
+  /// was just accepted, J and dF/dp are those of going on in its direction, as of loading. Empty, the
+  /// default: none.
+  virtual Vector initial_state() const { return {}; }
 
   /// Whether evaluating F alone costs much less than factorizing J.
   virtual bool cheap_residual() const { return true; }

@@ -37,8 +37,12 @@ using Parameters = std::shared_ptr<const std::vector<Parameter>>;
 
 class FunctionEvaluator final : public Evaluator, private Operator {
  public:
-  FunctionEvaluator(std::shared_ptr<const Functions> f, Parameters parameters)
+  // state, next: of a problem with a state, whose functions see it.
+  FunctionEvaluator(std::shared_ptr<const Functions> f, Parameters parameters,
+                    std::shared_ptr<Vector> state = {}, std::shared_ptr<const StateFunctions> of = {})
       : f_(std::move(f)),
+        state_(std::move(state)),
+        of_(std::move(of)),
         parameters_(std::move(parameters)),
         u_(f_->size),
         p_(parameters_->size()),
@@ -90,6 +94,13 @@ class FunctionEvaluator final : public Evaluator, private Operator {
   bool directional_derivative(int order, In v, In q, Out d) const override {
     if (f_->directional) f_->directional(order, u_, p_, v, q, d);
     return static_cast<bool>(f_->directional);
+  }
+
+  void set_state(In state) override {
+    if (state_) *state_ = state;
+  }
+  void next_state(Out state) const override {
+    if (state_) of_->next(u_, p_, *state_, state);
   }
 
   ByDifferences by_differences() const override {
@@ -231,6 +242,8 @@ class FunctionEvaluator final : public Evaluator, private Operator {
   }
 
   std::shared_ptr<const Functions> f_;
+  std::shared_ptr<Vector> state_;  // none: null
+  std::shared_ptr<const StateFunctions> of_;
   Parameters parameters_;
   mutable Vector u_, p_;
   Vector u_of_J_, p_of_J_;  // the point of the operator, fixed while residuals are evaluated elsewhere
@@ -242,7 +255,7 @@ class FunctionEvaluator final : public Evaluator, private Operator {
   Jacobian J_;
 };
 
-class FunctionProblem final : public Problem {
+class FunctionProblem : public Problem {
  public:
   FunctionProblem(std::shared_ptr<const Functions> f, Parameters parameters)
       : f_(std::move(f)), parameters_(std::move(parameters)) {}
@@ -254,15 +267,19 @@ class FunctionProblem final : public Problem {
   }
   bool smooth() const override { return !f_->piece && !f_->choosing.residual; }
   std::shared_ptr<const Problem> with_scale(int k, double scale) const override {
-    auto parameters = std::make_shared<std::vector<Parameter>>(*parameters_);
-    (*parameters)[static_cast<std::size_t>(k)].scale = scale;
-    return std::make_shared<const FunctionProblem>(f_, std::move(parameters));
+    return std::make_shared<const FunctionProblem>(f_, scaled(k, scale));
   }
   std::unique_ptr<LinearSolver> linear_solver() const override {
     return f_->linear_solver ? f_->linear_solver() : nullptr;
   }
 
- private:
+ protected:
+  Parameters scaled(int k, double scale) const {
+    auto parameters = std::make_shared<std::vector<Parameter>>(*parameters_);
+    (*parameters)[static_cast<std::size_t>(k)].scale = scale;
+    return parameters;
+  }
+
   std::shared_ptr<const Functions> f_;
   Parameters parameters_;
 };
@@ -287,9 +304,8 @@ void check_functions(const Functions& f) {
     throw std::invalid_argument("apply_transposed_jacobian requires apply_jacobian");
 }
 
-}  // namespace
-
-std::shared_ptr<const Problem> from_functions(Functions f) {
+// Complete with the defaults, or throws.
+std::shared_ptr<const Functions> checked(Functions f) {
   if (f.size < 1)
     throw std::invalid_argument("a problem has at least 1 unknown, not " + std::to_string(f.size));
   check_functions(f);
@@ -300,9 +316,53 @@ std::shared_ptr<const Problem> from_functions(Functions f) {
   if (!(f.scales.minCoeff() > 0) || !f.scales.allFinite())
     throw std::invalid_argument("scales must be positive and finite");
   check_parameters(f.parameters);
-  auto parameters = std::make_shared<const std::vector<Parameter>>(f.parameters);
-  return std::make_shared<const FunctionProblem>(std::make_shared<const Functions>(std::move(f)),
-                                                 std::move(parameters));
+  return std::make_shared<const Functions>(std::move(f));
+}
+
+Parameters parameters_of(const Functions& f) {
+  return std::make_shared<const std::vector<Parameter>>(f.parameters);
+}
+
+std::shared_ptr<const Functions> in_state(const StateFunctions& of, std::shared_ptr<const Vector> state) {
+  return checked(of.functions(AcceptedState(std::move(state))));
+}
+
+// Each evaluator has functions of its own, which see the state that it is in.
+class StateProblem final : public FunctionProblem {
+ public:
+  StateProblem(std::shared_ptr<const StateFunctions> of, std::shared_ptr<const Functions> f,
+               Parameters parameters)
+      : FunctionProblem(std::move(f), std::move(parameters)), of_(std::move(of)) {}
+  std::unique_ptr<Evaluator> evaluator() const override {
+    const auto state = std::make_shared<Vector>(of_->initial);
+    return std::make_unique<FunctionEvaluator>(in_state(*of_, state), parameters_, state, of_);
+  }
+  Vector initial_state() const override { return of_->initial; }
+  std::shared_ptr<const Problem> with_scale(int k, double scale) const override {
+    return std::make_shared<const StateProblem>(of_, f_, scaled(k, scale));
+  }
+
+ private:
+  std::shared_ptr<const StateFunctions> of_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Problem> from_functions(Functions functions) {
+  auto f = checked(std::move(functions));
+  auto parameters = parameters_of(*f);
+  return std::make_shared<const FunctionProblem>(std::move(f), std::move(parameters));
+}
+
+std::shared_ptr<const Problem> from_functions(StateFunctions of) {
+  if (of.initial.size() == 0 || !of.initial.allFinite())
+    throw std::invalid_argument("a problem with a state needs an initial one, of finite numbers");
+  if (!of.functions || !of.next)
+    throw std::invalid_argument("a problem with a state needs its functions, and the next state");
+  auto f = in_state(of, std::make_shared<const Vector>(of.initial));
+  auto parameters = parameters_of(*f);
+  return std::make_shared<const StateProblem>(std::make_shared<const StateFunctions>(std::move(of)),
+                                              std::move(f), std::move(parameters));
 }
 
 std::shared_ptr<const Problem> from_functions(int size, std::vector<Parameter> parameters,

@@ -21,6 +21,8 @@
 #include <arcslip/continuation/problem/problem.hpp>
 
 #include <functional>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -72,8 +74,40 @@ struct Functions {
   ChoosingFunctions choosing{};
 };
 
-/// Throws std::invalid_argument if something is missing or inconsistent.
+/// The state of a problem after the last accepted point (Problem::initial_state()), as functions see it: one
+/// that keeps a copy always sees the present one.
+class AcceptedState {
+ public:
+  explicit AcceptedState(std::shared_ptr<const Vector> values) : values_(std::move(values)) {}
+  const Vector& operator*() const { return *values_; }
+  double operator[](Eigen::Index i) const { return (*values_)[i]; }
+  Eigen::Index size() const { return values_->size(); }
+
+ private:
+  std::shared_ptr<const Vector> values_;
+};
+
+/// A problem whose F depends on a state that changes with each accepted point: damage, plastic strain, slip.
+///
+///   StateFunctions spring;
+///   spring.initial = Vector::Constant(1, limit);                 // the largest extension so far, at least
+///   this spring.functions = [=](AcceptedState largest) {
+///     Functions f{.size = 1, .parameters = {{"force", "N"}}};
+///     f.choosing.residual = [=](In u, In p, Choices& choose, Out F) {
+///       F[0] = softened(choose.max(u[0], largest[0])) * u[0] - p[0];
+///     };
+///     return f;
+///   };
+///   spring.next = [](In u, In, In largest, Out next) { next[0] = std::max(u[0], largest[0]); };
+struct StateFunctions {
+  Vector initial;                                            // before the first point, 1 number or more
+  std::function<Functions(AcceptedState)> functions;         // called once for each evaluator
+  std::function<void(In u, In p, In state, Out next)> next;  // the state that (u, p) leaves if it is accepted
+};
+
+/// Both throw std::invalid_argument if something is missing or inconsistent.
 std::shared_ptr<const Problem> from_functions(Functions functions);
+std::shared_ptr<const Problem> from_functions(StateFunctions functions);
 
 /// The common case.
 std::shared_ptr<const Problem> from_functions(int size, std::vector<Parameter> parameters,

@@ -21,6 +21,10 @@ InnerProblem::InnerProblem(std::shared_ptr<const Problem> which, int index, Make
   if (along < 0 || static_cast<std::size_t>(along) >= count)
     throw std::out_of_range("there is no parameter " + std::to_string(along) + " among " +
                             std::to_string(count));
+  if (problem->initial_state().size() != 0)
+    throw std::invalid_argument(
+        "a curve of special points is of a problem without a state: other parameters leave another state, "
+        "which the points of the curve do not pass");
 }
 
 Vector InnerProblem::scales() const {

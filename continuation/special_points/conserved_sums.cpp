@@ -110,6 +110,8 @@ class ClosedEvaluator final : public Evaluator {
   }
 
   ByDifferences by_differences() const override { return inner_->by_differences(); }
+  void set_state(In state) override { inner_->set_state(state); }
+  void next_state(Out state) const override { inner_->next_state(state); }
   std::uint64_t piece() const override { return inner_->piece(); }
   Evaluated test_piece(In u, In p, std::uint64_t piece, PieceTest test, bool& inside) override {
     return inner_->test_piece(u, p.head(p_.size()), piece, test, inside);
@@ -161,6 +163,7 @@ class ClosedProblem final : public Problem {
   Vector scales() const override { return of_->problem->scales(); }
   bool metric(In v, Out Mv) const override { return of_->problem->metric(v, Mv); }
   std::unique_ptr<Evaluator> evaluator() const override { return std::make_unique<ClosedEvaluator>(of_); }
+  Vector initial_state() const override { return of_->problem->initial_state(); }
   bool cheap_residual() const override { return of_->problem->cheap_residual(); }
   bool chord_pays() const override { return of_->problem->chord_pays(); }
   bool smooth() const override { return of_->problem->smooth(); }

@@ -40,6 +40,11 @@ class EventLocator {
     located_.clear();
   }
 
+  /// The problem's state, for the steps that follow.
+  void set_state(const Vector& state) {
+    if (probe_) probe_->set_state(state);
+  }
+
   /// Whether any monitor changes sign, in either direction.
   bool changes_sign(const CurvePoint& from, const CurvePoint& to) const;
 

@@ -29,6 +29,7 @@ std::vector<LocatedEvent> with_crossing(std::vector<LocatedEvent>&& found,
 void Recorder::keep(const CurvePoint& place, const Correction& correction) {
   Point kept = point(place, correction);
   if (!options_.keep_points) kept.u = kept.tangent = {};
+  if (options_.keep_states) kept.state = s_.accepted;
   s_.branch.points.push_back(std::move(kept));
   ++s_.branch.counts.points;
 }

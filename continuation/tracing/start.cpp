@@ -53,6 +53,15 @@ void check_free(const Problem& problem, int free, const Options& options) {
                                 text(parameter.upper) + "] of the parameter \"" + parameter.name + "\"");
 }
 
+// Of a problem with a state.
+void check_state_of_problem(const Problem& problem, const Vector& state, const char* whose) {
+  const Eigen::Index size = problem.initial_state().size();
+  if (state.size() != size)
+    throw std::invalid_argument(
+        text("the state of ", whose, " has ", state.size(), " numbers, that of the problem ", size));
+  if (!state.allFinite()) throw std::invalid_argument(text("the state of ", whose, " is not finite"));
+}
+
 }  // namespace
 
 void check_start(const Problem& problem, const Start& start, const Options& options) {
@@ -85,6 +94,7 @@ void check_start(const Problem& problem, const Start& start, const Options& opti
   if (p < free.lower || p > free.upper)
     throw std::invalid_argument("the start is at " + text(p) + ", outside the bounds [" + text(free.lower) +
                                 ", " + text(free.upper) + "] of the parameter \"" + free.name + "\"");
+  if (start.state.size() != 0) check_state_of_problem(problem, start.state, "the start");
   check_scales(problem);
 }
 
@@ -100,6 +110,7 @@ void check_state(const Problem& problem, const State& state, std::size_t monitor
                                 std::to_string(state.courses.size()) + " monitors, the problem has " +
                                 std::to_string(n) + ", " + std::to_string(problem.parameters().size()) +
                                 " and " + std::to_string(monitors));
+  check_state_of_problem(problem, state.accepted, "the trace");
   check_scales(problem);
 }
 
@@ -113,19 +124,16 @@ namespace {
 
 constexpr double smallest_width = 1e-150, largest_width = 1e150;  // whose squares are numbers
 
-class ScaledProblem final : public Problem {
+// The problem of the user, but for what a trace knows better.
+class ProblemOfTrace : public Problem {
  public:
-  ScaledProblem(std::shared_ptr<const Problem> problem, std::size_t free, double scale)
-      : problem_(std::move(problem)) {
-    const auto all = problem_->parameters();
-    parameters_.assign(all.begin(), all.end());
-    parameters_[free].scale = scale;
-  }
+  explicit ProblemOfTrace(std::shared_ptr<const Problem> problem) : problem_(std::move(problem)) {}
   int size() const override { return problem_->size(); }
-  std::span<const Parameter> parameters() const override { return parameters_; }
+  std::span<const Parameter> parameters() const override { return problem_->parameters(); }
   Vector scales() const override { return problem_->scales(); }
   bool metric(In v, Out Mv) const override { return problem_->metric(v, Mv); }
   std::unique_ptr<Evaluator> evaluator() const override { return problem_->evaluator(); }
+  Vector initial_state() const override { return problem_->initial_state(); }
   bool cheap_residual() const override { return problem_->cheap_residual(); }
   bool chord_pays() const override { return problem_->chord_pays(); }
   bool smooth() const override { return problem_->smooth(); }
@@ -134,7 +142,37 @@ class ScaledProblem final : public Problem {
 
  private:
   std::shared_ptr<const Problem> problem_;
+};
+
+class ScaledProblem final : public ProblemOfTrace {
+ public:
+  ScaledProblem(std::shared_ptr<const Problem> problem, std::size_t free, double scale)
+      : ProblemOfTrace(std::move(problem)) {
+    const auto all = ProblemOfTrace::parameters();
+    parameters_.assign(all.begin(), all.end());
+    parameters_[free].scale = scale;
+  }
+  std::span<const Parameter> parameters() const override { return parameters_; }
+
+ private:
   std::vector<Parameter> parameters_;
+};
+
+class ProblemInState final : public ProblemOfTrace {
+ public:
+  ProblemInState(std::shared_ptr<const Problem> problem, const Vector& accepted)
+      : ProblemOfTrace(std::move(problem)), accepted_(accepted) {}
+  std::unique_ptr<Evaluator> evaluator() const override {
+    auto made = ProblemOfTrace::evaluator();
+    made->set_state(accepted_);
+    return made;
+  }
+  Vector initial_state() const override { return accepted_; }
+  // The other problem is not in this state.
+  const Problem* made_of(PlaceOfProblem&) const override { return nullptr; }
+
+ private:
+  const Vector& accepted_;
 };
 
 }  // namespace
@@ -149,6 +187,11 @@ std::shared_ptr<const Problem> scaled_to_window(std::shared_ptr<const Problem> p
                                   smallest_width, largest_width);
   if (auto scaled = problem->with_scale(free, width)) return scaled;
   return std::make_shared<const ScaledProblem>(std::move(problem), index, width);
+}
+
+std::shared_ptr<const Problem> in_state(std::shared_ptr<const Problem> problem, const Vector& accepted) {
+  if (problem->initial_state().size() == 0) return problem;
+  return std::make_shared<const ProblemInState>(std::move(problem), accepted);
 }
 
 }  // namespace arcslip::continuation

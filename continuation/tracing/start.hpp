@@ -1,5 +1,5 @@
 #pragma once
-// Validation of the start of a trace, and the default scale of a parameter.
+// Validation of the start of a trace, and its problem: with the default scale of a parameter, and in a state.
 
 #include <arcslip/continuation/problem/problem.hpp>
 #include <arcslip/continuation/tracing/tracer.hpp>
@@ -22,5 +22,10 @@ void check_monitors(const std::vector<Monitor>& monitors);
 /// to the parameter's bounds, as scale.
 std::shared_ptr<const Problem> scaled_to_window(std::shared_ptr<const Problem> problem, int free,
                                                 double lower, double upper);
+
+/// The problem in the state `accepted`, which outlives it: each evaluator made of it begins in the state of
+/// the moment, so that whatever looks at the problem of a trace, as the check of its Jacobian, sees that of
+/// the last accepted point. A problem without a state is returned as it is.
+std::shared_ptr<const Problem> in_state(std::shared_ptr<const Problem> problem, const Vector& accepted);
 
 }  // namespace arcslip::continuation

@@ -130,6 +130,11 @@ class Reader {
 template <class T, class U>
 constexpr bool is = std::is_same_v<std::remove_const_t<T>, U>;
 
+// One that is absent in states of earlier versions.
+void newer_field(auto& visit, const char* name, auto& x) {
+  if (visit.holds(name)) visit(name, x);
+}
+
 // Coefficients of normal forms are absent in states of earlier versions.
 void fields_of_fold(auto& visit, auto& x) {
   visit("right_null", x.right_null), visit("left_null", x.left_null), visit("curvature", x.curvature);
@@ -205,9 +210,9 @@ void fields_of_state(auto& visit, auto& x) {
     visit("jacobian_error", x.jacobian_error), visit("factors_fit", x.factors_fit);
     visit("factors", x.factors);
   }
-  if (visit.holds("curve_error")) visit("curve_error", x.curve_error);
-  if (visit.holds("expected")) visit("expected", x.expected);
-  if (visit.holds("transverse")) visit("transverse", x.transverse);
+  newer_field(visit, "curve_error", x.curve_error), newer_field(visit, "expected", x.expected);
+  newer_field(visit, "transverse", x.transverse), newer_field(visit, "accepted", x.accepted);
+  newer_field(visit, "previous", x.previous);
 }
 
 template <class Visit>
@@ -216,7 +221,7 @@ void fields(Visit&& visit, auto& x) {
   if constexpr (is<T, Point>) {
     visit("u", x.u), visit("parameter", x.parameter), visit("tangent", x.tangent);
     visit("arclength", x.arclength), visit("iterations", x.iterations), visit("correction", x.correction);
-    if (visit.holds("spectrum")) visit("spectrum", x.spectrum);  // absent in states of earlier versions
+    newer_field(visit, "spectrum", x.spectrum), newer_field(visit, "state", x.state);
   } else if constexpr (is<T, Spectrum>) {
     visit("leading", x.leading), visit("unstable", x.unstable), visit("complete", x.complete);
     visit("found_near", x.found_near);
@@ -237,19 +242,19 @@ void fields(Visit&& visit, auto& x) {
   } else if constexpr (is<T, Branch>) {
     visit("points", x.points), visit("events", x.events), visit("stop", x.stop), visit("counts", x.counts);
     visit("linear_solver", x.linear_solver);
-    if (visit.holds("warnings")) visit("warnings", x.warnings);  // absent in states of earlier versions
+    newer_field(visit, "warnings", x.warnings), newer_field(visit, "state", x.state);
   } else if constexpr (is<T, CurvePoint>) {
     visit("v", x.v), visit("tangent", x.tangent), visit("arclength", x.arclength);
     visit("orientation", x.orientation), visit("piece", x.piece), visit("monitors", x.monitors);
     visit("quantities", x.quantities);
-    if (visit.holds("part")) visit("part", x.part);  // absent in states of earlier versions
+    newer_field(visit, "part", x.part);
   } else if constexpr (is<T, LocatedEvent>) {
     visit("event", x.event), visit("place", x.place), visit("quantity", x.quantity);
     visit("rounding", x.rounding);
   } else if constexpr (is<T, Course>) {
     visit("last", x.last), visit("waiting", x.waiting), visit("side", x.side);
   } else if constexpr (is<T, Linearization>) {
-    visit("v", x.v), visit("row", x.row);
+    visit("v", x.v), visit("row", x.row), newer_field(visit, "state", x.state);
   } else if constexpr (is<T, FactorMemory>) {
     visit("factors", x.factors), visit("pivots", x.pivots), visit("pivots_kept", x.pivots_kept);
     visit("contraction", x.contraction);

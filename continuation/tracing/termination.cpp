@@ -110,7 +110,8 @@ std::optional<BranchStop> limit_reached(const Options& options, const control::C
                       "reached the time limit of " + text(options.seconds) + " s"};
   if (options.memory > 0) {
     const auto numbers = 2 * static_cast<std::size_t>(unknowns) + 1;
-    const std::size_t each = sizeof(Point) + (options.keep_points ? sizeof(double) * numbers : 0);
+    const auto states = options.keep_states ? static_cast<std::size_t>(branch.state.size()) : 0;
+    const std::size_t each = sizeof(Point) + sizeof(double) * ((options.keep_points ? numbers : 0) + states);
     const std::size_t bytes = each * branch.points.size();
     if (bytes >= options.memory)
       return BranchStop{StopReason::memory_limit, static_cast<double>(bytes),

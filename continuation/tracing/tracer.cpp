@@ -373,10 +373,29 @@ bool Tracer::Impl::accept() {
   else
     s_.before = trial_.corners.back().beyond;
   std::swap(s_.here, place);
+  s_.previous = s_.accepted;
   rejected_before_ = s_.branch.counts.rejected_steps;
   jacobian_.check_some();
-  if (!keep_going || !record_.show_last_point(is_there))
-    return end(StopReason::user, 1, 1, "stopped by the caller");
+  const bool is_stopped = !keep_going || !record_.show_last_point(is_there);
+  if (!accept_state()) return false;
+  return !is_stopped || end(StopReason::user, 1, 1, "stopped by the caller");
+}
+
+// The last point is accepted with the state that it leaves. Up to here all that was evaluated on the way to
+// it, rejected steps, events, checks and monitors, went by the state of the point before.
+bool Tracer::Impl::accept_state() {
+  if (s_.accepted.size() == 0) return true;
+  if (!main_.next_state(s_.here.v, next_state_))
+    return end(StopReason::not_evaluated, s_.here.v[n_], 0,
+               "the state that the point at " + text(s_.here.v[n_]) + " leaves could not be computed" +
+                   because(main_.failure()));
+  s_.previous = s_.accepted;
+  s_.accepted = next_state_;
+  main_.set_state(s_.accepted);
+  events_.set_state(s_.accepted);
+  if (modes_) modes_->set_state(s_.accepted);
+  s_.branch.state = s_.accepted;
+  if (options_.keep_states) s_.branch.points.back().state = s_.accepted;
   return true;
 }
 
@@ -390,6 +409,7 @@ bool Tracer::Impl::end_at(const CurvePoint& terminal) {
   if (options_.stability && main_.move_to(terminal.v, Needs::jacobian)) record_.add_spectrum(true);
   s_.before = s_.here;
   s_.here = terminal;
+  if (!accept_state()) return false;
   const Event& last = events.back();
   return end(StopReason::event, last.value, 0,
              "reached the terminal event \"" + last.monitor + "\" at " + text(terminal.v[n_]));

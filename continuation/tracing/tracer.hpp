@@ -31,6 +31,7 @@ struct Start {
   int direction = 1;  // +1: towards larger values of the free parameter, -1: towards smaller ones
   Vector tangent{};   // n + 1, or none: the initial direction, in place of `direction`; the solution is then
                       // sought in the plane normal to it, and not at p[free]
+  Vector state{};     // of a problem with a state, such as Branch::state; none: Problem::initial_state()
 };
 
 /// Called at each accepted point and, with the event, at each event, as soon as it is certain. Returns false

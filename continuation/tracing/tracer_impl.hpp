@@ -71,6 +71,7 @@ class Tracer::Impl {
   Outcome end_at_bound(const Exit& exit);
   std::optional<Outcome> close_loop();
   bool accept();
+  bool accept_state();
 
   bool corner();  // tracer_corners.cpp
   bool step_beyond_corner();
@@ -97,6 +98,7 @@ class Tracer::Impl {
   Recorder record_;
   TrialStep trial_;
   Vector row_, v_;            // n + 1
+  Vector next_state_;         // of the problem
   long rejected_before_ = 0;  // steps, before the last point
 };
 

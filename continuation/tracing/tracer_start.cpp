@@ -26,8 +26,9 @@ Options within(const Parameter& free, Options options) {
   return options;
 }
 
-State before_the_start(const Start& start) {
+State before_the_start(const Problem& problem, const Start& start) {
   State state;
+  state.accepted = state.previous = start.state.size() != 0 ? start.state : problem.initial_state();
   state.free = start.free;
   state.direction = start.direction;
   state.p = start.p;
@@ -51,7 +52,8 @@ Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const
   if (options.stability) check(*options.stability, problem->size());
   check_start(*problem, start, options);
   check_monitors(monitors);
-  impl_ = std::make_unique<Impl>(std::move(problem), before_the_start(start), options, std::move(monitors),
+  State state = before_the_start(*problem, start);
+  impl_ = std::make_unique<Impl>(std::move(problem), std::move(state), options, std::move(monitors),
                                  std::move(observer));
 }
 
@@ -96,7 +98,7 @@ Branch trace(std::shared_ptr<const Problem> problem, const Start& start, const O
 
 Tracer::Impl::Impl(std::shared_ptr<const Problem> problem, State state, const Options& options,
                    std::vector<Monitor> monitors, Observer observer)
-    : problem_(std::move(problem)),
+    : problem_(in_state(std::move(problem), s_.accepted)),
       options_(within(problem_->parameters()[static_cast<std::size_t>(state.free)], options)),
       timed_(options_.control.until(options_.seconds)),
       monitors_(std::move(monitors)),
@@ -112,6 +114,7 @@ Tracer::Impl::Impl(std::shared_ptr<const Problem> problem, State state, const Op
       record_(options_, monitors_, std::move(observer), s_, main_, events_),
       row_(n_ + 1),
       v_(n_ + 1),
+      next_state_(s_.accepted.size()),
       rejected_before_(s_.branch.counts.rejected_steps) {
   main_.restore(s_.factors);
   s_.factors = {};
@@ -189,8 +192,9 @@ bool Tracer::Impl::begin() {
   s_.start = s_.before = s_.here;
   s_.factors_fit = false;  // their border row is that of the start
   jacobian_.look_at(s_.here.v);
-  if (!record_.show_last_point(false)) return end(StopReason::user, 1, 1, "stopped by the caller");
-  return within_limits();
+  const bool goes_on = record_.show_last_point(false);
+  if (!accept_state()) return false;
+  return goes_on ? within_limits() : end(StopReason::user, 1, 1, "stopped by the caller");
 }
 
 }  // namespace arcslip::continuation
