@@ -16,6 +16,7 @@
 #include <arcslip/continuation/special_points/branch_point.hpp>
 #include <arcslip/continuation/special_points/branch_point_curve.hpp>
 #include <arcslip/continuation/special_points/conserved_sums.hpp>
+#include <arcslip/continuation/special_points/constraints.hpp>
 #include <arcslip/continuation/special_points/hopf_curve.hpp>
 #include <arcslip/continuation/special_points/multiple_point.hpp>
 #include <arcslip/continuation/special_points/stationary.hpp>

@@ -2,6 +2,7 @@
 
 #include <arcslip/continuation/diagrams/branch_parts.hpp>
 #include <arcslip/continuation/diagrams/diagram_tracer.hpp>
+#include <arcslip/continuation/special_points/augmented_problem.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,7 @@ Diagram DiagramTracer::run() {
 
 void DiagramTracer::first_branch() {
   Branch forward = follow({start_}, 0, 0);
-  with_ = std::make_unique<Corrector>(*problem_, start_.p, start_.free, options_.newton, counts_,
+  with_ = std::make_unique<Corrector>(*problem_, start_.p, free_, options_.newton, counts_,
                                       options_.linear_solver);
   DiagramBranch first;
   first.begin = forward.stop;
@@ -145,7 +146,7 @@ Branch DiagramTracer::follow(const Entry& entry, int branch, int depth) {
     };
   Tracer tracer(problem_, entry.start, options, monitors_, observer);
   if (!with_)
-    with_ = std::make_unique<Corrector>(*problem_, start_.p, start_.free, options_.newton, counts_,
+    with_ = std::make_unique<Corrector>(*problem_, start_.p, free_, options_.newton, counts_,
                                         options_.linear_solver);
   std::size_t passed = 0;
   Arrival last = Arrival::first;
@@ -244,7 +245,7 @@ void DiagramTracer::name_events(int branch) {
 Diagram trace_diagram(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
                       const DiagramOptions& diagram, std::vector<Monitor> monitors, Observer observer) {
   if (!options.keep_points) throw std::invalid_argument("a diagram needs its points: keep_points is false");
-  if (problem && problem->initial_state().size() != 0)
+  if (given(problem)->initial_state().size() != 0)
     throw std::invalid_argument(
         "a diagram is of a problem without a state: branches that meet have left different ones");
   if (diagram.depth < 0)

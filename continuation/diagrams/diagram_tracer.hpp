@@ -29,7 +29,8 @@ class DiagramTracer {
  public:
   DiagramTracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
                 const DiagramOptions& limits, std::vector<Monitor> monitors, Observer observer)
-      : problem_(scaled_to_window(std::move(problem), start.free, options.lower, options.upper)),
+      : free_(start.free.in(*problem)),
+        problem_(scaled_to_window(std::move(problem), free_, options.lower, options.upper)),
         start_(start),
         options_(options),
         limits_(limits),
@@ -65,6 +66,7 @@ class DiagramTracer {
   void name_events(int branch);
   void incomplete(const std::string& why);
 
+  int free_;  // index of the free parameter
   std::shared_ptr<const Problem> problem_;
   Start start_;
   Options options_;

@@ -83,8 +83,8 @@ std::optional<Entry> DiagramTracer::enter(std::size_t k, HalfBranch& half) {
     Entry entry;
     entry.start.u = place.v.head(n);
     entry.start.p = start_.p;
-    entry.start.p[start_.free] = place.v[n];
-    entry.start.free = start_.free;
+    entry.start.p[free_] = place.v[n];
+    entry.start.free = free_;
     entry.start.tangent = place.tangent;
     entry.step = step;
     entry.origin = k;

@@ -42,6 +42,12 @@ class LU {
   std::unique_ptr<Decomposition> lu_;
 };
 
+/// LU with partial pivoting in place: A, n x n by columns, becomes L, whose diagonal of ones is not stored, and
+/// U; row i of L U is row order[i] of A. order, work: n. A singular A gives a zero pivot, and one that is not
+/// finite a pivot that is not. Does not allocate. Below 100 rows four columns are eliminated at once, so that
+/// what is left is read and written a fourth as often; from there on by LAPACK.
+void factorize_in_place(Eigen::Index n, double* A, int* order, int* work);
+
 extern template class LU<double>;
 extern template class LU<std::complex<double>>;
 

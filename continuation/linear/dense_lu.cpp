@@ -1,6 +1,6 @@
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/group_elimination.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>
-#include <arcslip/continuation/linear/lu_in_place.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <arcslip/continuation/linear/group_elimination.hpp>
 
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/lapack.hpp>
-#include <arcslip/continuation/linear/lu_in_place.hpp>
 
 #include <algorithm>
 #include <cmath>

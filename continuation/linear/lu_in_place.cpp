@@ -1,6 +1,5 @@
-#include <arcslip/continuation/linear/lu_in_place.hpp>
-
 #include <arcslip/continuation/linear/cpu_dispatch.hpp>
+#include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/linear/lapack.hpp>
 
 #include <algorithm>

@@ -176,6 +176,12 @@ class Problem {
     return nullptr;
   }
 
+  /// Whether p_k is among the unknowns, so that it cannot be free.
+  virtual bool is_unknown(int k) const {
+    static_cast<void>(k);
+    return false;
+  }
+
   /// The same problem with this scale of parameter k, as of its window, which its own differences go by.
   /// Null, the default: it makes none.
   virtual std::shared_ptr<const Problem> with_scale(int k, double scale) const;

@@ -2,7 +2,6 @@
 
 #include <arcslip/continuation/linear/linear_solvers.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -21,6 +20,9 @@ InnerProblem::InnerProblem(std::shared_ptr<const Problem> which, int index, Make
   if (along < 0 || static_cast<std::size_t>(along) >= count)
     throw std::out_of_range("there is no parameter " + std::to_string(along) + " among " +
                             std::to_string(count));
+  if (problem->is_unknown(along))
+    throw std::invalid_argument("the parameter \"" + parameter(along).name +
+                                "\" is among the unknowns of the problem already");
   if (problem->initial_state().size() != 0)
     throw std::invalid_argument(
         "a curve of special points is of a problem without a state: other parameters leave another state, "
@@ -137,6 +139,7 @@ class AugmentedProblem final : public Problem {
     return linear_solver_ ? linear_solver_() : nullptr;
   }
   bool cheap_residual() const override { return false; }
+  bool is_unknown(int k) const override { return k == inner_->along || inner_->problem->is_unknown(k); }
   const Problem* made_of(PlaceOfProblem& place) const override {
     const Eigen::Index n = inner_->size();
     place.p[inner_->along] = place.u[n];
@@ -153,13 +156,6 @@ class AugmentedProblem final : public Problem {
 };
 
 }  // namespace
-
-bool is_unknown(const Problem& problem, int k) {
-  PlaceOfProblem place{Vector::Zero(problem.size()), parameter_values(problem), {}};
-  for (const Problem* of = problem.made_of(place); of; of = of->made_of(place)) {
-  }
-  return std::find(place.changing.begin(), place.changing.end(), k) != place.changing.end();
-}
 
 std::shared_ptr<const Problem> augmented(std::shared_ptr<const InnerProblem> inner, Vector scales,
                                          std::function<std::unique_ptr<Evaluator>()> evaluator,

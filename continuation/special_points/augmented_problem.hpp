@@ -14,9 +14,6 @@ namespace arcslip::continuation {
 /// Throws std::invalid_argument for a null pointer.
 std::shared_ptr<const Problem> given(std::shared_ptr<const Problem> problem);
 
-/// Whether p_k is among the unknowns, so that it cannot be the free parameter.
-bool is_unknown(const Problem& problem, int k);
-
 /// The inner problem, the index of p_a, and the solver of bordered systems with J.
 struct InnerProblem {
   /// Throws std::out_of_range for an invalid index.

@@ -167,6 +167,7 @@ class ClosedProblem final : public Problem {
   bool cheap_residual() const override { return of_->problem->cheap_residual(); }
   bool chord_pays() const override { return of_->problem->chord_pays(); }
   bool smooth() const override { return of_->problem->smooth(); }
+  bool is_unknown(int k) const override { return k < of_->inner_parameters() && of_->problem->is_unknown(k); }
   std::unique_ptr<LinearSolver> linear_solver() const override { return of_->problem->linear_solver(); }
   std::shared_ptr<const Problem> with_scale(int k, double scale) const override {
     auto scaled = std::make_shared<SumsOfProblem>(*of_);

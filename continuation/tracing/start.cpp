@@ -44,7 +44,7 @@ void check_free(const Problem& problem, int free, const Options& options) {
   if (free < 0 || static_cast<std::size_t>(free) >= parameters.size())
     throw std::invalid_argument(no_parameter(free, parameters.size()));
   const Parameter& parameter = parameters[static_cast<std::size_t>(free)];
-  if (is_unknown(problem, free))
+  if (problem.is_unknown(free))
     throw std::invalid_argument("the parameter \"" + parameter.name +
                                 "\" is among the unknowns of this problem: another one has to be free");
   if (!(std::max(options.lower, parameter.lower) < std::min(options.upper, parameter.upper)))
@@ -75,7 +75,8 @@ void check_start(const Problem& problem, const Start& start, const Options& opti
   if (start.p.size() != static_cast<Eigen::Index>(parameters.size()))
     throw std::invalid_argument("the start has " + std::to_string(start.p.size()) +
                                 " parameters, the problem " + std::to_string(parameters.size()));
-  check_free(problem, start.free, options);
+  const int index = start.free.in(problem);
+  check_free(problem, index, options);
   if (start.tangent.size() != 0 && (start.tangent.size() != n + 1 || !start.tangent.allFinite()))
     throw std::invalid_argument("the tangent of the start needs " + std::to_string(n + 1) +
                                 " finite entries, not " + std::to_string(start.tangent.size()));
@@ -84,13 +85,13 @@ void check_start(const Problem& problem, const Start& start, const Options& opti
   if (start.direction != 1 && start.direction != -1)
     throw std::invalid_argument("the direction of the start is " + std::to_string(start.direction) +
                                 ", must be +1 or -1");
-  const double p = start.p[start.free];
+  const double p = start.p[index];
   if (!start.u.allFinite() || !std::isfinite(p))
     throw std::invalid_argument("the start has non-finite values");
   if (p < options.lower || p > options.upper)
     throw std::invalid_argument("the start is at " + text(p) + ", outside the window [" +
                                 text(options.lower) + ", " + text(options.upper) + "]");
-  const Parameter& free = parameters[static_cast<std::size_t>(start.free)];
+  const Parameter& free = parameters[static_cast<std::size_t>(index)];
   if (p < free.lower || p > free.upper)
     throw std::invalid_argument("the start is at " + text(p) + ", outside the bounds [" + text(free.lower) +
                                 ", " + text(free.upper) + "] of the parameter \"" + free.name + "\"");
@@ -137,6 +138,7 @@ class ProblemOfTrace : public Problem {
   bool cheap_residual() const override { return problem_->cheap_residual(); }
   bool chord_pays() const override { return problem_->chord_pays(); }
   bool smooth() const override { return problem_->smooth(); }
+  bool is_unknown(int k) const override { return problem_->is_unknown(k); }
   const Problem* made_of(PlaceOfProblem& place) const override { return problem_->made_of(place); }
   std::unique_ptr<LinearSolver> linear_solver() const override { return problem_->linear_solver(); }
 

@@ -14,6 +14,9 @@
 
 #include <functional>
 #include <memory>
+#include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace arcslip::continuation {
@@ -23,15 +26,33 @@ inline constexpr const char* needs_tangent =
     ": at a fold p does not determine the direction, and a start needs a tangent (Start::tangent); at a "
     "branch point start next to it";
 
+/// A parameter of a problem by its index, or by its name.
+class WhichParameter {
+ public:
+  WhichParameter(int index) : index_or_name_(index) {}
+  WhichParameter(const char* name) : index_or_name_(std::string(name)) {}
+  WhichParameter(std::string name) : index_or_name_(std::move(name)) {}
+
+  /// Throws std::out_of_range for a name that there is none of, with those that there are. An index is
+  /// returned as it is.
+  int in(const Problem& problem) const {
+    const auto* name = std::get_if<std::string>(&index_or_name_);
+    return name ? parameter_index(problem, *name) : std::get<int>(index_or_name_);
+  }
+
+ private:
+  std::variant<int, std::string> index_or_name_;
+};
+
 /// The start of a branch: an approximate solution u at the parameters p.
 struct Start {
-  Vector u;           // n
-  Vector p;           // all parameters
-  int free = 0;       // index of the free one
-  int direction = 1;  // +1: towards larger values of the free parameter, -1: towards smaller ones
-  Vector tangent{};   // n + 1, or none: the initial direction, in place of `direction`; the solution is then
-                      // sought in the plane normal to it, and not at p[free]
-  Vector state{};     // of a problem with a state, such as Branch::state; none: Problem::initial_state()
+  Vector u;                 // n
+  Vector p;                 // all parameters
+  WhichParameter free = 0;  // the free one: its index, or its name
+  int direction = 1;        // +1: towards larger values of the free parameter, -1: towards smaller ones
+  Vector tangent{};  // n + 1, or none: the initial direction, in place of `direction`; the solution is then
+                     // sought in the plane normal to it, and not at p[free]
+  Vector state{};    // of a problem with a state, such as Branch::state; none: Problem::initial_state()
 };
 
 /// Called at each accepted point and, with the event, at each event, as soon as it is certain. Returns false
@@ -40,7 +61,8 @@ using Observer = std::function<bool(const Accepted&, const Event*)>;
 
 class Tracer {
  public:
-  /// Throws std::invalid_argument for invalid options, sizes or start.
+  /// Throws std::invalid_argument for invalid options, sizes or start, std::out_of_range for a free parameter
+  /// of an unknown name.
   Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
          std::vector<Monitor> monitors = {}, Observer observer = {});
 

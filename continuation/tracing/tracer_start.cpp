@@ -29,11 +29,11 @@ Options within(const Parameter& free, Options options) {
 State before_the_start(const Problem& problem, const Start& start) {
   State state;
   state.accepted = state.previous = start.state.size() != 0 ? start.state : problem.initial_state();
-  state.free = start.free;
+  state.free = start.free.in(problem);
   state.direction = start.direction;
   state.p = start.p;
   state.here.v.resize(start.u.size() + 1);
-  state.here.v << start.u, start.p[start.free];
+  state.here.v << start.u, start.p[state.free];
   state.here.tangent = start.tangent;
   return state;
 }
@@ -47,7 +47,8 @@ bool looks_for_branch_points(const std::vector<Monitor>& monitors) {
 
 Tracer::Tracer(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
                std::vector<Monitor> monitors, Observer observer) {
-  problem = scaled_to_window(given(std::move(problem)), start.free, options.lower, options.upper);
+  const int free = start.free.in(*given(problem));
+  problem = scaled_to_window(std::move(problem), free, options.lower, options.upper);
   check(options);
   if (options.stability) check(*options.stability, problem->size());
   check_start(*problem, start, options);

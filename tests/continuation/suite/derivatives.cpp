@@ -71,7 +71,7 @@ TEST_CASE(
       if (i >= branch.points.size()) break;
       CAPTURE(c.name, i);
       Vector u = branch.points[i].u, p = c.start.p;
-      p[c.start.free] = branch.points[i].parameter;
+      p[c.start.free.in(*c.problem)] = branch.points[i].parameter;
       check_derivatives(*c.problem, u, p);
       u.array() *= 1.01;
       u += 0.003 * c.problem->scales();

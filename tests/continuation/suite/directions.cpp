@@ -28,7 +28,7 @@ bool begins_with(const std::vector<double>& found, const std::vector<double>& ex
 Branch from(const Case& c, const Point& point, int direction) {
   Case there = c;
   there.start.u = point.u;
-  there.start.p[c.start.free] = point.parameter;
+  there.start.p[c.start.free.in(*c.problem)] = point.parameter;
   there.start.direction = direction;
   return trace(there);
 }
@@ -47,10 +47,11 @@ TEST_CASE("from its end each branch is followed back through the same folds to i
     std::reverse(expected.begin(), expected.end());
     CAPTURE(expected, parameters(folds(back)));
     CHECK(begins_with(parameters(folds(back)), expected));
-    const bool from_a_bound = c.start.p[c.start.free] == c.lower || c.start.p[c.start.free] == c.upper;
+    const bool from_a_bound = c.start.p[c.start.free.in(*c.problem)] == c.lower ||
+                              c.start.p[c.start.free.in(*c.problem)] == c.upper;
     if (!from_a_bound) continue;
     CHECK(back.stop.reason == StopReason::boundary);
-    CHECK(back.points.back().parameter == c.start.p[c.start.free]);
+    CHECK(back.points.back().parameter == c.start.p[c.start.free.in(*c.problem)]);
     CHECK((back.points.back().u - there.points.front().u).norm() <
           1e-8 * (1 + there.points.front().u.norm()));
   }

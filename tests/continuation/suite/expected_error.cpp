@@ -21,7 +21,7 @@ namespace {
 std::vector<double> errors(const std::shared_ptr<const Problem>& problem, const Start& start,
                            const Branch& branch) {
   Counts counts;
-  Corrector with(*problem, start.p, start.free, {}, counts);
+  Corrector with(*problem, start.p, start.free.in(*problem), {}, counts);
   std::vector<double> all;
   for (const Point& point : branch.points) {
     Vector v(point.u.size() + 1);

@@ -11,7 +11,7 @@ TEST_CASE("u and p in units 1e12 larger or smaller make the same branch, with th
        {"cusp", "freudenstein_roth", "ab", "duffing_1harmonic", "duffing_jenkins_omega", "bratu_numerov",
         "chan", "aircraft_2", "trigger_circuit", "moore_spence", "oden_1"}) {
     const Case c = named(name);
-    const int free = c.start.free;
+    const int free = c.start.free.in(*c.problem);
     const Branch unit = trace(c);
     for (double in_u : {1e-12, 1.0, 1e12})
       for (double in_p : {1e-12, 1.0, 1e12}) {

@@ -26,7 +26,7 @@ Branch curve_of(const Case& c, std::size_t k, const char* other, int direction, 
   const auto found = suite::folds(branch);
   REQUIRE(found.size() > k);
   return arcslip::continuation::trace(
-      folds(c.problem, c.start.free),
+      folds(c.problem, c.start.free.in(*c.problem)),
       {with_parameter(found[k].point), c.start.p, index(c.problem, other), direction}, options,
       std::move(monitors));
 }
@@ -65,7 +65,7 @@ TEST_CASE("a solver without the sign of the determinant finds the same points on
   const int over = index(c.problem, "p3");
   p[over] = p3;
   const Branch curve =
-      arcslip::continuation::trace(folds(c.problem, c.start.free, users::without_sign()),
+      arcslip::continuation::trace(folds(c.problem, c.start.free.in(*c.problem), users::without_sign()),
                                    {Vector{{x, y, x / (1 - x) * std::exp(-y)}}, p, over, 1}, window(0.01, 3),
                                    {cusp_monitor(), bogdanov_takens_monitor()});
   CAPTURE(curve.stop.message);
@@ -130,7 +130,7 @@ TEST_CASE("a solver without transposed solves follows the same curve of folds") 
 
 TEST_CASE("the augmented system of folds has the derivatives of its residual") {
   const Case c = named("ab");
-  const auto augmented = folds(c.problem, c.start.free);
+  const auto augmented = folds(c.problem, c.start.free.in(*c.problem));
   for (const Vector& x : {Vector{{0.3, 0.6, 0.1}}, Vector{{0.7, 1.2, 0.09}}}) {
     const JacobianError worst = check_jacobian(*augmented, x, c.start.p);
     CAPTURE(worst.message);

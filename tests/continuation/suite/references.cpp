@@ -54,12 +54,12 @@ TEST_CASE("at every fold the Jacobian is singular and dF/dp is not in its range,
       CAPTURE(c.name, fold.point.parameter);
       const auto at = c.problem->evaluator();
       Vector p = c.start.p;
-      p[c.start.free] = fold.point.parameter;
+      p[c.start.free.in(*c.problem)] = fold.point.parameter;
       at->move_to(fold.point.u, p, Needs::jacobian);
       const int n = c.problem->size();
       Eigen::MatrixXd J = std::get<Eigen::MatrixXd>(at->jacobian()) * c.problem->scales().asDiagonal();
       Vector by_p(n);
-      at->parameter_derivative(c.start.free, by_p);
+      at->parameter_derivative(c.start.free.in(*c.problem), by_p);
       const Eigen::JacobiSVD<Eigen::MatrixXd> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
       const double largest = std::max(svd.singularValues()[0], by_p.norm());
       // u is found to 1e-10, and J changes at most so fast:
