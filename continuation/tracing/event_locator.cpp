@@ -213,6 +213,7 @@ constexpr int samples_nearby = 4;           // of q on each side of an extremum,
 constexpr double sample_share = 1e-2;       // of the step, between them
 constexpr double spreads = 2;               // of the samples: more is not rounding
 constexpr double spreads_at_kink = 8;       // of two samples
+constexpr double uncertain_sign = 1e-3;     // of a monitor's change over a section: a value nearer to zero
 constexpr double near_singular = 1e-6;      // of a section: places next to one with a singular matrix
 constexpr double finest_share = 1e-13, coarsest_share = 1e-3;  // of a step, to which its zero is bracketed
 
@@ -231,34 +232,48 @@ class OnSection {
         row_(probe.border_row(chord_ / length_)),
         least_along_(length_ * std::cos(std::min(2 * largest_angle, steepest))),
         place_(to),
-        positive_{0, from.v, from.piece},
+        positive_{0, 0, to, {}, 0, false},
         negative_{positive_} {}
+
+  /// A place of the section at which the monitor is known.
+  struct Sample {
+    double s, value;
+    CurvePoint place;
+    Correction correction;
+    double quantity;
+    bool corrected;  // by this; else an end of the section, with its errors
+  };
 
   double operator()(double s) {
     const std::optional<double> f = go_near(s) ? measure() : singular_ ? between_neighbours(s) : std::nullopt;
     if (!f) return fail();
     factors_ = true;
     failed_ = std::isnan(*f);
-    took(*f, s, place_);
+    Sample& end = side(*f);
+    take(end, s, *f, place_);
+    end.correction = correction_;
+    end.quantity = quantity_of(monitor_, accepted(probe_, place_));
+    end.corrected = true;
     return *f;
   }
 
-  /// The monitored quantity at the last place.
-  double quantity() { return quantity_of(monitor_, accepted(probe_, place_)); }
-
-  /// Notes a value, also of an end of the section: the last ones of either sign are the ends of the bracket.
+  /// Notes an end of the section.
   void took(double f, double s, const CurvePoint& place) {
-    End& end = f > 0 ? positive_ : negative_;
-    end.s = s;
-    end.v = place.v;
-    end.piece = place.piece;
+    take(side(f), s, f, place);
+    side(f).corrected = false;
   }
-  /// Whether they lie on two pieces.
-  bool changes_piece() const { return positive_.piece != negative_.piece; }
+
+  /// The last places with either sign of the monitor bracket the zero. Whether they lie on two pieces.
+  bool changes_piece() const { return positive_.place.piece != negative_.place.piece; }
+
+  /// The place at s, an end of the bracket or a new one.
+  const Sample& sample(double s) {
+    for (const Sample* each : {&positive_, &negative_})
+      if (each->s == s && each->corrected) return *each;
+    return side((*this)(s));
+  }
 
   bool failed() const { return failed_; }
-  const CurvePoint& place() const { return place_; }
-  const Correction& correction() const { return correction_; }
 
   /// Of s, to locate a zero to the tolerances in p and u.
   double tolerance(double in_p) const {
@@ -276,6 +291,18 @@ class OnSection {
     return 0;
   }
 
+  Sample& side(double f) { return f > 0 ? positive_ : negative_; }
+
+  static void take(Sample& sample, double s, double f, const CurvePoint& place) {
+    sample.s = s;
+    sample.value = f;
+    sample.place.v = place.v;
+    sample.place.tangent = place.tangent;
+    sample.place.arclength = place.arclength;
+    sample.place.orientation = place.orientation;
+    sample.place.piece = place.piece;
+  }
+
   bool go_near(double s) {
     singular_ = false;
     hermite(from_.v, from_.tangent, to_.v, to_.tangent, length_, s, guess_);
@@ -283,7 +310,7 @@ class OnSection {
     // Next to a kink the cubic may lie beyond it, where it leads elsewhere: between the ends of the bracket.
     if (positive_.s == negative_.s) return false;
     const double share = (s - negative_.s) / (positive_.s - negative_.s);
-    guess_ = negative_.v + share * (positive_.v - negative_.v);
+    guess_ = negative_.place.v + share * (positive_.place.v - negative_.place.v);
     return go_to_branch(false);
   }
 
@@ -334,21 +361,16 @@ class OnSection {
   Correction correction_;
   bool factors_ = false, failed_ = false;
   bool singular_ = false;  // the last corrections met a singular matrix
-  struct End {
-    double s;
-    Vector v;
-    std::uint64_t piece;
-  };
-  End positive_, negative_;
+  Sample positive_, negative_;
 };
 
 // The rounding of a quantity next to its extremum at s: its spread over a part of the section in which it
 // hardly changes.
 double spread_nearby(OnSection& value, double s, double extremum) {
   double lowest = extremum, highest = lowest;
-  for (int k = -samples_nearby; k <= samples_nearby && !value.failed(); ++k) {
-    value(s + sample_share * k);
-    const double q = value.quantity();
+  for (int k = -samples_nearby; k <= samples_nearby; ++k) {
+    const double q = value.sample(s + sample_share * k).quantity;
+    if (value.failed()) break;
     lowest = std::min(lowest, q);
     highest = std::max(highest, q);
   }
@@ -409,7 +431,10 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Curv
                                                  const CurvePoint& to) {
   OnSection value(probe(), monitors_[monitor], from, to, options_.step.largest_angle);
   const double a = from.monitors[monitor], b = to.monitors[monitor];
-  double begin = 0, at_begin = from_crossing_ ? a : value(0);  // matrices are singular at a crossing
+  // Matrices are singular at a crossing; a value next to zero may have the wrong sign.
+  const bool certain = from_crossing_ || std::abs(a) > uncertain_sign * std::abs(b - a);
+  double begin = 0, at_begin = certain ? a : value(0);
+  if (certain) value.took(a, 0, from);
   while (!value.failed() && (at_begin > 0) == (b > 0) && at_begin != 0) {  // the sign of `from` was rounding
     if (begin <= -1) return std::nullopt;
     begin = begin == 0 ? -0.25 : 2 * begin;
@@ -420,13 +445,13 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Curv
   const auto at = [&](double s) { return value(s); };
   const Root root = find_root(at, begin, at_begin, 1, b, value.tolerance(options_.event_tolerance));
   if (value.failed()) return nearer_end(monitor, from, to);
-  const double left = value(root.x);
+  const auto& zero = value.sample(root.x);
   if (value.failed()) return nearer_end(monitor, from, to);
-  LocatedEvent found{event(monitor, value.place(), left, value.correction()), value.place()};
+  LocatedEvent found{event(monitor, zero.place, zero.value, zero.correction), zero.place};
   found.event.nonsmooth = value.changes_piece() && std::max(std::abs(root.f_lower), std::abs(root.f_upper)) >
                                                        nonsmooth_share * std::abs(b - a);
   if (!monitors_[monitor].quantity) return found;
-  found.quantity = value.quantity();
+  found.quantity = zero.quantity;
   const double change = std::max(std::abs(a), std::abs(b)) * (to.arclength - from.arclength);
   if (change <= options_.newton.rounding_level * std::abs(found.quantity))
     found.rounding = spread_nearby(value, root.x, found.quantity);
