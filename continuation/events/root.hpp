@@ -14,9 +14,10 @@ struct Root {
   int evaluations;
 };
 
-/// f(a) = fa and f(b) = fb of opposite sign, a < b. The bracket is narrowed to `tolerance`.
+/// f(a) = fa and f(b) = fb of opposite sign, a < b. The bracket is narrowed to `tolerance`. first: the share
+/// of the way from a to b to look at first.
 template <class Function>
-Root find_root(Function&& f, double a, double fa, double b, double fb, double tolerance) {
+Root find_root(Function&& f, double a, double fa, double b, double fb, double tolerance, double first) {
   const auto root = [&](double x1, double f1, double x2, double f2, int evaluations) {
     const double best = std::abs(f1) < std::abs(f2) ? x1 : x2;
     if (x1 > x2) {
@@ -25,7 +26,7 @@ Root find_root(Function&& f, double a, double fa, double b, double fb, double to
     }
     return Root{best, x1, x2, f1, f2, evaluations};
   };
-  double x1 = a, f1 = fa, x2 = b, f2 = fb, t = fa / (fa - fb);  // the secant first
+  double x1 = a, f1 = fa, x2 = b, f2 = fb, t = first;
   if (!(t > 0 && t < 1)) t = 0.5;
   const int most = 200;
   for (int evaluations = 1;; ++evaluations) {
@@ -49,6 +50,12 @@ Root find_root(Function&& f, double a, double fa, double b, double fb, double to
     else
       t = 0.5;
   }
+}
+
+/// The secant first.
+template <class Function>
+Root find_root(Function&& f, double a, double fa, double b, double fb, double tolerance) {
+  return find_root(std::forward<Function>(f), a, fa, b, fb, tolerance, fa / (fa - fb));
 }
 
 }  // namespace arcslip::continuation

@@ -169,6 +169,7 @@ struct Response {
   const char* scene;
   std::size_t branch;
   std::vector<Event> events;
+  double force = 0;  // if not 0: the first branch from `branch` on at this force
 };
 
 inline void check_events(const Json& branch, const std::vector<Event>& events) {
