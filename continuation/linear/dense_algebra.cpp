@@ -201,8 +201,11 @@ Eigen::MatrixXcd solve_complex(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd
 
 void transposed_product(const Matrix& A, const Matrix& B, Matrix& C) {
   C.resize(A.cols(), B.cols());
-  lapack::transposed_product(static_cast<int>(A.cols()), static_cast<int>(B.cols()),
-                             static_cast<int>(A.rows()), A.data(), B.data(), C.data());
+  const auto columns = [](const Matrix& of) {
+    const auto rows = static_cast<int>(of.rows());
+    return lapack::Columns{of.data(), rows, static_cast<int>(of.cols()), rows};
+  };
+  lapack::multiply(true, 1, columns(A), columns(B), 0, C.data(), static_cast<int>(C.rows()));
 }
 
 bool Cholesky::factorize(const Matrix& A) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <mutex>
 #include <new>
+#include <vector>
 
 #include <sys/mman.h>
 
@@ -14,6 +15,11 @@ void zgetrf_(const int* m, const int* n, std::complex<double>* A, const int* lda
 void dgemm_(const char* A_transposed, const char* B_transposed, const int* m, const int* n, const int* k,
             const double* alpha, const double* A, const int* lda, const double* B, const int* ldb,
             const double* beta, double* C, const int* ldc);
+void dsyevd_(const char* job, const char* part, const int* n, double* A, const int* lda, double* values,
+             double* work, const int* work_size, int* integers, const int* integers_size, int* info);
+void dsygvd_(const int* type, const char* job, const char* part, const int* n, double* A, const int* lda,
+             double* B, const int* ldb, double* values, double* work, const int* work_size, int* integers,
+             const int* integers_size, int* info);
 void dtrsm_(const char* side, const char* part, const char* transposed, const char* diagonal, const int* m,
             const int* n, const double* alpha, const double* A, const int* lda, double* B, const int* ldb);
 void ztrsm_(const char* side, const char* part, const char* transposed, const char* diagonal, const int* m,
@@ -58,11 +64,37 @@ void solve_triangle(const char* part, const char* diagonal, int n, int columns, 
   ztrsm_("L", part, "N", diagonal, &n, &columns, &one, A, &n, B, &n);
 }
 
-void transposed_product(int m, int n, int k, const double* A, const double* B, double* C) {
+void multiply(bool transposed, double alpha, const Columns& A, const Columns& B, double beta, double* C,
+              int stride) {
   require_memory();
-  const int rows = std::max(k, 1), rows_of_C = std::max(m, 1);
-  const double one = 1, zero = 0;
-  dgemm_("T", "N", &m, &n, &k, &one, A, &rows, B, &rows, &zero, C, &rows_of_C);
+  const int m = transposed ? A.cols : A.rows;
+  const auto at_least_one = [](int of) { return std::max(of, 1); };
+  const int lda = at_least_one(A.stride), ldb = at_least_one(B.stride), ldc = at_least_one(stride);
+  dgemm_(transposed ? "T" : "N", "N", &m, &B.cols, &B.rows, &alpha, A.data, &lda, B.data, &ldb, &beta, C,
+         &ldc);
+}
+
+bool symmetric_modes(bool with_vectors, int n, double* A, double* B, double* values) {
+  require_memory();
+  const char* job = with_vectors ? "V" : "N";
+  const int type = 1;
+  int info = 0, integers_size = -1, work_size = -1;
+  std::vector<double> work(1);
+  std::vector<int> integers(1);
+  const auto call = [&] {
+    if (B == nullptr)
+      dsyevd_(job, "L", &n, A, &n, values, work.data(), &work_size, integers.data(), &integers_size, &info);
+    else
+      dsygvd_(&type, job, "L", &n, A, &n, B, &n, values, work.data(), &work_size, integers.data(),
+              &integers_size, &info);
+  };
+  call();
+  work_size = static_cast<int>(work[0]);
+  integers_size = integers[0];
+  work.resize(static_cast<std::size_t>(work_size));
+  integers.resize(static_cast<std::size_t>(integers_size));
+  call();
+  return info == 0;
 }
 
 }  // namespace arcslip::continuation::lapack

@@ -22,7 +22,18 @@ void solve_triangle(const char* part, const char* diagonal, int n, int columns, 
 void solve_triangle(const char* part, const char* diagonal, int n, int columns, const std::complex<double>* A,
                     std::complex<double>* B);
 
-/// C = A^T B, with A k x m and B k x n.
-void transposed_product(int m, int n, int k, const double* A, const double* B, double* C);
+/// A matrix in memory, its columns `stride` apart.
+struct Columns {
+  const double* data;
+  int rows, cols, stride;
+};
+/// C = alpha A B + beta C, or with A^T in place of A; the columns of C are `stride` apart.
+void multiply(bool transposed, double alpha, const Columns& A, const Columns& B, double beta, double* C,
+              int stride);
+
+/// A V = V diag(values) of a symmetric A, n x n, or A V = B V diag(values), V^T B V = 1, of a positive
+/// definite B, which its factor replaces; null: none. By divide and conquer; lower triangles alone are read,
+/// and V takes the place of A. False: not converged, or B is not positive definite.
+bool symmetric_modes(bool with_vectors, int n, double* A, double* B, double* values);
 
 }  // namespace arcslip::continuation::lapack
