@@ -171,8 +171,17 @@ double Placer::highest_speed() const {
 
 std::pair<structure::Purpose, std::string> Placer::purpose(const std::vector<std::size_t>& loads) const {
   structure::Purpose purpose{highest_frequency(), highest_speed(), {}};
+  const scene::Reduction& how = files_.reduction;
+  purpose.accuracy = how.accuracy;
+  purpose.method = how.method;
+  purpose.modes = how.modes;
+  purpose.cutoff = how.cutoff > 0 ? how.cutoff * scene::to_rad_per_s(scene_.frequency_unit)
+                                  : scene::cutoff_of_highest * purpose.highest;
   std::string key = "reduced for " + std::to_string(purpose.highest) + " rad/s, " +
                     std::to_string(purpose.highest_speed) + " rad/s to ";
+  const double numbers[] = {static_cast<double>(how.method), how.accuracy, static_cast<double>(how.modes),
+                            purpose.cutoff};
+  key += fingerprint("by ", numbers, std::size(numbers));
   for (const int row : rows_) key += std::to_string(row) + ' ';
   purpose.loads.resize(files_.size(), static_cast<Index>(loads.size()));
   for (std::size_t k = 0; k < loads.size(); ++k) {

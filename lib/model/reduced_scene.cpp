@@ -129,6 +129,7 @@ class ReducedFiles {
       names += plain_name(model_.dof_names[static_cast<std::size_t>(i)]) + ',' + std::to_string(i + 1) + '\n';
     to.names = add("names.csv", names);
     to.bar.reset();
+    to.reduction = {};
     if (model_.unnamed_to <= largest_whole) to.highest_frequency = 0;
   }
 

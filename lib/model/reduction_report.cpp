@@ -16,6 +16,18 @@ double to_two_digits(double value) {
   return std::strtod(digits, nullptr);
 }
 
+const char* coordinates_of(scene::ReductionMethod method) {
+  switch (method) {
+    case scene::ReductionMethod::krylov:
+      return " coordinates";
+    case scene::ReductionMethod::craig_bampton:
+      return " coordinates of fixed-interface modes";
+    case scene::ReductionMethod::rubin:
+      return " coordinates of free-interface modes";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::optional<model::Reduction> reduction(const scene::Scene& scene, const control::Control& control) {
@@ -43,7 +55,8 @@ std::string prepare(const scene::Scene& scene, const control::Control& control) 
                              scene::unit_name(scene.frequency_unit));
   };
   return "the structure of " + std::to_string(done->rows) + " rows was reduced to " +
-         std::to_string(done->kept) + " of them and " + std::to_string(done->coordinates) + " coordinates" +
+         std::to_string(done->kept) + " of them and " + std::to_string(done->coordinates) +
+         coordinates_of(scene.matrices->reduction.method) +
          (copies > 1 ? " in each of " + std::to_string(copies) + " copies" : "") +
          "; error of its dynamic stiffness " + results::quantity(done->error, "-") + " up to " +
          frequency(done->highest_frequency) +

@@ -14,6 +14,7 @@
 
 #include <arcslip/scene/bar.hpp>
 #include <arcslip/scene/named_file.hpp>
+#include <arcslip/scene/reduction.hpp>
 #include <arcslip/scene/sparse_matrix.hpp>
 
 #include <map>
@@ -71,6 +72,7 @@ struct Matrices {
   int copies = 1;                           // of the structure, side by side: the sectors of a full ring
   std::vector<double> stiffness_factors{};  // of the stiffness matrix in each copy; empty: 1
   double highest_frequency = 0;  // of a harmonic, in the scene's unit: they are reduced; 0: they are not
+  Reduction reduction{};
   std::optional<Bar> bar{};      // of which they are, in place of files
   std::shared_ptr<Derived> derived = Derived::none();
 

@@ -31,6 +31,19 @@ Partition partition(int size, const std::vector<const scene::SparseMatrix*>& mat
   return parts;
 }
 
+Sparse whole(const scene::SparseMatrix& A, const Partition& parts) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(A.entries());
+  for (std::size_t c = 0; c < parts.place.size(); ++c)
+    for (auto k = static_cast<std::size_t>(A.starts[c]); k < static_cast<std::size_t>(A.starts[c + 1]); ++k)
+      if (const int i = parts.place[static_cast<std::size_t>(A.row_of[k])]; i >= 0 && parts.place[c] >= 0)
+        entries.emplace_back(i, parts.place[c], A.values[k]);
+  const Index size = parts.kept + parts.others;
+  Sparse of(size, size);
+  of.setFromTriplets(entries.begin(), entries.end());
+  return of;
+}
+
 Blocks blocks(const scene::SparseMatrix& A, const Partition& parts) {
   Blocks of{MatrixXd::Zero(parts.kept, parts.kept), Sparse(parts.others, parts.kept),
             Sparse(parts.others, parts.others)};

@@ -28,6 +28,9 @@ struct Blocks {
   Sparse ib, ii;
 };
 
+/// The whole matrix in (b, i).
+Sparse whole(const scene::SparseMatrix& A, const Partition& parts);
+
 Blocks blocks(const scene::SparseMatrix& A, const Partition& parts);
 
 }  // namespace arcslip::structure

@@ -1,5 +1,6 @@
 #include <arcslip/structure/digit_loss.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -33,14 +34,15 @@ Forms forms(const scene::SparseMatrix& A, const Partition& parts, const VectorXd
 
 }  // namespace
 
-Rounding rounding(const scene::Matrices& matrices, const Partition& parts, double sigma, Index modes,
-                  const std::function<VectorXd(Index)>& mode) {
+Rounding rounding(const scene::Matrices& matrices, const Partition& parts, double sigma, double accuracy,
+                  Index modes, const std::function<VectorXd(Index)>& mode) {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   Rounding found;
   for (Index j = 0; j < modes; ++j) {
     const VectorXd x = mode(j);
     const Forms K = forms(*matrices.stiffness.matrix, parts, x), M = forms(*matrices.mass.matrix, parts, x);
-    const double last_digits = eps * (K.absolute + sigma * M.absolute), unknown = last_digits + free;
+    const double last_digits = eps * (K.absolute + sigma * M.absolute),
+                 unknown = last_digits + std::max(free, accuracy);
     const bool is_free = std::abs(K.of) <= unknown;
     const double change = 4 * last_digits / (is_free ? 1 : std::abs(K.of));
     if (!(change <= found.change)) found.change = change;

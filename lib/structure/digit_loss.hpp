@@ -23,7 +23,8 @@ struct Rounding {
 };
 
 /// mode(0), mode(1), ...: the modes in (b, i) from the lowest natural frequency, x^T (K + sigma M) x = 1.
-Rounding rounding(const scene::Matrices& matrices, const Partition& parts, double sigma, Eigen::Index modes,
-                  const std::function<Eigen::VectorXd(Eigen::Index)>& mode);
+/// accuracy: to which x^T K x of them is known.
+Rounding rounding(const scene::Matrices& matrices, const Partition& parts, double sigma, double accuracy,
+                  Eigen::Index modes, const std::function<Eigen::VectorXd(Eigen::Index)>& mode);
 
 }  // namespace arcslip::structure

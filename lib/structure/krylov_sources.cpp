@@ -21,16 +21,16 @@ constexpr Index iterated = 4;  // vectors
 constexpr int iterations = 3;
 constexpr double of_direction = 0.5;  // next to the limit: what a combination has to add
 
-// Normally distributed, the same everywhere (Box and Muller).
-MatrixXd normal(Index rows, Index columns, std::mt19937_64& random) {
+}  // namespace
+
+// By Box and Muller.
+MatrixXd normal_numbers(Index rows, Index columns, std::mt19937_64& random) {
   const auto uniform = [&] { return std::ldexp(static_cast<double>(random() >> 11) + 0.5, -53); };
   return MatrixXd::NullaryExpr(rows, columns, [&] {
     const double radius = std::sqrt(-2 * std::log(uniform()));
     return radius * std::cos(2 * std::numbers::pi * uniform());
   });
 }
-
-}  // namespace
 
 Index KrylovSources::count() const {
   const auto matrices = static_cast<Index>(matrices_.size());
@@ -78,10 +78,10 @@ double append_sources(EnergyBasis& basis, const InteriorFactor& A, const KrylovS
   const Index count = X.count();
   for (Index sampled = 0, batch = first_many; count > few && sampled + batch < count / 2;
        sampled += std::exchange(batch, batch_growth * (sampled + batch))) {
-    MatrixXd right = X.combined(normal(count, batch, random));
+    MatrixXd right = X.combined(normal_numbers(count, batch, random));
     MatrixXd W = A.solve(right);
     basis.append(std::move(W), std::move(right), of_direction * limit, most);
-    right = X.combined(normal(count, probes, random));
+    right = X.combined(normal_numbers(count, probes, random));
     W = A.solve(right);
     basis.take_out(W, right);
     const double left =
@@ -95,7 +95,7 @@ double append_sources(EnergyBasis& basis, const InteriorFactor& A, const KrylovS
 
 double largest_theta_outside(const EnergyBasis& basis, const InteriorFactor& A, const Sparse& M,
                              std::mt19937_64& random) {
-  MatrixXd X = M * normal(M.rows(), iterated, random);
+  MatrixXd X = M * normal_numbers(M.rows(), iterated, random);
   double theta = 0;
   for (int step = 0; step <= iterations; ++step) {
     MatrixXd W = A.solve(X);

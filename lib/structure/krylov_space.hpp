@@ -85,6 +85,9 @@ class KrylovSources {
 double append_sources(EnergyBasis& basis, const InteriorFactor& A, const KrylovSources& X, double limit,
                       Eigen::Index most, std::mt19937_64& random);
 
+/// Normally distributed numbers, the same everywhere.
+Eigen::MatrixXd normal_numbers(Eigen::Index rows, Eigen::Index columns, std::mt19937_64& random);
+
 /// The largest theta, A^-1 M x = theta x, of the vectors orthogonal to the basis, from a few steps of
 /// subspace iteration.
 double largest_theta_outside(const EnergyBasis& basis, const InteriorFactor& A, const Sparse& M,

@@ -70,7 +70,8 @@ VectorXd inverse_scale_at(const Projected& P, double size_of_p, double stiffenin
   VectorXd A = P.A_c.diagonal();
   if (const PartOfZ* K2 = stiffening_part(P)) A += stiffening * K2->c.diagonal();
   VectorXd scale(A.size() + P.load_size.size());
-  scale << (A.cwiseAbs() + size_of_p * P.parts.front().c.diagonal().cwiseAbs()).cwiseSqrt(), P.load_size;
+  scale << (A.cwiseAbs() + (size_of_p + 2 * P.shift) * P.parts.front().c.diagonal().cwiseAbs()).cwiseSqrt(),
+      P.load_size;
   return scale.unaryExpr([](double of) { return of == 0 ? 0 : 1 / of; });
 }
 

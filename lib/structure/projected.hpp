@@ -38,6 +38,7 @@ struct Projected {
   std::vector<double> stiffening{0.0};  // A is A + each of them times K2
   double square = 1;                    // of the speed, where the stiffening is 0; 1 without a speed
   double sigma = 0, highest = 0;        // rad/s
+  double shift = 0;  // A + shift M is positive definite where A alone need not be: the scale has twice this
 
   Eigen::Index coordinates() const { return parts.front().zz.rows(); }
   bool is_finite() const;

@@ -2,6 +2,7 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/control/interruptible.hpp>
+#include <arcslip/structure/component_modes.hpp>
 #include <arcslip/structure/products.hpp>
 #include <arcslip/structure/static_condensation.hpp>
 
@@ -29,6 +30,8 @@ constexpr double share_of_weak = 1e-3;     // of the error: modes that are left 
 constexpr double share_of_left = 0.25;     // of the error: what the space lacks of its own sources
 constexpr double usual_blocks = 3;         // of sources that are cut, between which that share is parted
 constexpr double largest_coupling = 0.03;  // of what is left of p M v for vectors v, next to A
+// Errors of a given space, which are looked for: the first, each next to the one before, and the last.
+constexpr double first_resolved = 1e-2, resolved_next = 1e-2, last_resolved = 1e-11;
 
 // The largest eigenvalue of A v = mu B v.
 double largest_next_to(const MatrixXd& A, const MatrixXd& B) {
@@ -85,6 +88,20 @@ class KrylovGrowth {
              std::to_string(space_.size()) + " coordinates and does not fall any further, must be at most " +
              three_digits(largest_error) + "; lower \"highest_frequency\", or let the scene use fewer rows");
     return estimates.error;
+  }
+
+  // The estimate of the error of the space as it is, whose sources are found for that alone.
+  double error_of_space() {
+    const Index first = space_.size();
+    for (accuracy_ = first_resolved;; accuracy_ *= resolved_next) {
+      reached_ = known_envelope();
+      append_block(true, 0);
+      const ResidualBound found = bound(P_, first, {left(known_envelope()), theta_outside(first)}, HUGE_VAL);
+      if (std::isnan(found.error)) refuse_overflow();
+      of_.keep(first);
+      blocks_.clear();
+      if (found.error > accuracy_ || accuracy_ < last_resolved) return found.error;
+    }
   }
 
  private:
@@ -228,6 +245,14 @@ class KrylovGrowth {
   std::mt19937_64 random_;
 };
 
+// Gives V its vectors. The estimate of the error.
+double span(StaticCondensation& structure, const Purpose& purpose, Index most,
+            const control::Control& control) {
+  if (purpose.method == scene::ReductionMethod::krylov) return KrylovGrowth(structure, purpose, most).span();
+  take_modes(structure, purpose, control);
+  return KrylovGrowth(structure, purpose, structure.others()).error_of_space();
+}
+
 }  // namespace
 
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, const Purpose& purpose,
@@ -236,7 +261,7 @@ Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, co
       [=](const control::Control& given_up) {
         StaticCondensation structure(matrices, kept, purpose, given_up);
         structure.condense();
-        return structure.reduced(structure.others() > 0 ? KrylovGrowth(structure, purpose, most).span() : 0);
+        return structure.reduced(structure.others() > 0 ? span(structure, purpose, most, given_up) : 0);
       },
       control, "interrupted while the structure was reduced");
 }

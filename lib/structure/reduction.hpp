@@ -28,9 +28,20 @@
 // coordinates, where they are skew-symmetric again. The space has A_ii^-1 (S_ii Psi + S_ib) and A_ii^-1 S_ii
 // times each of its vectors; as S^T = -S, it is that of the transposed structure as well.
 //
-// R. R. Craig and M. C. C. Bampton, Coupling of substructures for dynamic analyses, AIAA J. 6 (1968) 1313,
-// with fixed-interface modes in place of V; moments: E. J. Grimme, Krylov projection methods for model
-// reduction, PhD thesis, Univ. of Illinois (1997).
+// Moments: E. J. Grimme, Krylov projection methods for model reduction, PhD thesis, Univ. of Illinois (1997).
+//
+// With modes in place of that space, sigma is 0, so that statics are exact whatever the modes:
+//
+//   fixed-interface modes of b held, K_ii V = M_ii V diag(omega^2): R. R. Craig and M. C. C. Bampton,
+//   Coupling
+//     of substructures for dynamic analyses, AIAA J. 6 (1968) 1313
+//   free-interface modes Phi with their residual flexibility: S. Rubin, Improved component-mode
+//     representation for structural dynamic analysis, AIAA J. 13 (1975) 995
+//
+// Rubin's vectors, Phi and what the statics of forces on b, balanced by inertia where the structure floats,
+// have next to them, span (I, Psi) x_b and (0, Phi_i - Psi Phi_b): the latter, of K_ii (Phi_i - Psi Phi_b) =
+// omega^2 (M Phi)_i, and those of inertia, are V = K_ii^-1 (M Phi)_i, rigid-body motions among them. The
+// natural frequencies of Phi are then those of the whole structure. With b held no part may float.
 
 #include <arcslip/control/error.hpp>
 #include <arcslip/control/run_control.hpp>
@@ -71,10 +82,14 @@ struct Purpose {
   double highest_speed = 0;  // Omega, rad/s; 0: G and N as they stand, and no K2
   Eigen::MatrixXd loads{};   // on all rows, a column each
   double accuracy = 1e-11;   // of Reduced::error: V grows until then, or as far as rounding allows
+  scene::ReductionMethod method = scene::ReductionMethod::krylov;
+  int modes = -1;     // of the other methods, as many as there are; -1: those up to the cutoff
+  double cutoff = 0;  // rad/s
 };
 
-/// kept: rows of the matrices, from 0. most: vectors of V. Throws ReductionError, where K + sigma M is not
-/// positive definite, numbers overflow, or the error stays above 1e-3, and control::Interrupted.
+/// kept: rows of the matrices, from 0. most: vectors of V by Krylov spaces. Throws ReductionError, where
+/// K + sigma M is not positive definite, a part floats with b held by another method, numbers overflow, or
+/// the error of Krylov spaces stays above 1e-3, and control::Interrupted. The error of modes is as it is.
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, const Purpose& purpose,
                const control::Control& control = {}, int most = 1500);
 Reduced reduce(const scene::Matrices& matrices, const std::vector<int>& kept, double highest,

@@ -15,7 +15,6 @@ namespace {
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 using Kind = PartOfZ::Kind;
 
-constexpr double shift_at = 0.3;         // sqrt(sigma) over the highest frequency
 constexpr double largest_change = 1e-3;  // by the last digits of the entries
 
 Partition partition_of(const scene::Matrices& matrices, const std::vector<Skew>& skew,
@@ -24,6 +23,11 @@ Partition partition_of(const scene::Matrices& matrices, const std::vector<Skew>&
                                               matrices.damping.matrix.get()};
   for (const Skew& each : skew) all.push_back(&each.A);
   return partition(matrices.size(), all, kept);
+}
+
+double shift_of(double highest) {
+  constexpr double shift_at = 0.3;  // its root over the highest frequency
+  return std::pow(shift_at * highest, 2);
 }
 
 // With the stiffness at the speed of the expansion.
@@ -66,6 +70,12 @@ void refuse(const std::string& cause) {
 void refuse_overflow() {
   refuse("their entries are too large, too small or too far apart for double precision");
 }
+void refuse_floating() {
+  refuse(
+      "a part of the structure floats, or nearly so, where the rows that the scene uses are held, so that "
+      "these have "
+      "no statics; let the scene use more rows of this part, or reduce by the \"method\" \"krylov\"");
+}
 std::string three_digits(double value) {
   std::ostringstream out;
   out.precision(3);
@@ -78,11 +88,13 @@ StaticCondensation::StaticCondensation(const scene::Matrices& matrices, const st
     : square_(0.5 * purpose.highest_speed * purpose.highest_speed),
       matrices_(at_speed(symmetric_parts(matrices), square_)),
       skew_(skew_parts(matrices)),
-      sigma_(std::pow(shift_at * purpose.highest, 2)),
+      accuracy_(purpose.method == scene::ReductionMethod::krylov ? purpose.accuracy : 0),
+      sigma_(purpose.method == scene::ReductionMethod::krylov ? shift_of(purpose.highest) : 0),
       parts_(partition_of(matrices_, skew_, kept)),
       K_(blocks(*matrices_.stiffness.matrix, parts_)),
       factor_(control) {
   P_.sigma = sigma_;
+  P_.shift = shift_of(purpose.highest) - sigma_;
   P_.highest = purpose.highest;
   add_operator({Kind::mass, false, false, {}, {}, {}}, *matrices_.mass.matrix);
   if (matrices_.damping.matrix)
@@ -118,6 +130,7 @@ void StaticCondensation::factorize() {
   // Not every LAPACK finds a NaN.
   if (!Eigen::Map<const VectorXd>(A_ii_.valuePtr(), A_ii_.nonZeros()).allFinite()) refuse_overflow();
   if (factor_.factorize(A_ii_)) return;
+  if (sigma_ == 0) refuse_floating();
   std::string where;
   if (const auto column = factor_.failed_at())
     for (std::size_t row = 0; row < parts_.place.size(); ++row)
@@ -165,13 +178,18 @@ void StaticCondensation::condense_loads() {
   P_.f_c = f_b_ + Psi_.transpose() * f_i_;
   P_.load_size.setZero(f_i_.cols());
   if (f_i_.cols() == 0) return;
-  const MatrixXd of_b = continuation::solve(P_.A_c, P_.f_c), of_i = factor_.solve(f_i_);
+  const MatrixXd of_b = continuation::solve(P_.A_c + P_.shift * P_.parts.front().c, P_.f_c),
+                 of_i = factor_.solve(f_i_);
   P_.load_size =
       ((of_b.array() * P_.f_c.array()).colwise().sum() + (of_i.array() * f_i_.array()).colwise().sum())
           .max(0.0)
           .sqrt()
           .matrix()
           .transpose();
+}
+
+Sparse StaticCondensation::whole_stiffness(double sigma) const {
+  return whole(*matrices_.stiffness.matrix, parts_) + sigma * whole_mass();
 }
 
 void StaticCondensation::turn(const MatrixXd& Q) {
@@ -199,6 +217,7 @@ Rounding StaticCondensation::rounding_of_entries() const {
     M.bottomLeftCorner(z, b) = P_.parts.front().zb;
     M.topRightCorner(b, z) = P_.parts.front().zb.transpose();
   }
+  A += P_.shift * M;
   const auto modes = large_symmetric_modes(M, A);
   if (modes.values.size() != b + z) refuse_indefinite("; it is not in the rows that the scene uses");
   const auto mode = [&](Index j) {
@@ -208,7 +227,7 @@ Rounding StaticCondensation::rounding_of_entries() const {
     if (parts_.others > 0) x.tail(parts_.others) = Psi_ * v.head(b) + space_->V() * v.tail(z);
     return x;
   };
-  const Rounding found = rounding(matrices_, parts_, sigma_, b + z, mode);
+  const Rounding found = rounding(matrices_, parts_, sigma_ + P_.shift, accuracy_, b + z, mode);
   return found;
 }
 

@@ -36,6 +36,9 @@ class StaticCondensation {
   const std::vector<Operator>& operators() const { return operators_; }
   const Eigen::MatrixXd& loads_of_others() const { return f_i_; }
   const InteriorFactor& factor() const { return factor_; }
+  /// K + sigma M and M of all rows, in (b, i).
+  Sparse whole_stiffness(double sigma) const;
+  Sparse whole_mass() const { return whole(*matrices_.mass.matrix, parts_); }
   const Projected& projected() const { return P_; }
   EnergyBasis& space() { return *space_; }
 
@@ -63,6 +66,7 @@ class StaticCondensation {
   const double square_;             // of the speed of the expansion
   const scene::Matrices matrices_;  // symmetric parts
   const std::vector<Skew> skew_;
+  const double accuracy_;  // of the structure in (b, z), as asked for
   const double sigma_;
   const Partition parts_;
   const Blocks K_;
@@ -77,6 +81,8 @@ class StaticCondensation {
 
 [[noreturn]] void refuse(const std::string& cause);
 [[noreturn]] void refuse_overflow();
+/// Of statics, without sigma.
+[[noreturn]] void refuse_floating();
 /// A number with three digits, for messages.
 std::string three_digits(double value);
 

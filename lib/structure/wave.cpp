@@ -100,7 +100,9 @@ WaveStructure reduce_wave(const scene::Matrices& sector, const Wave& wave, const
     for (const int row : kept) twice.push_back(offset + in.place(row));
   // U f as its real and its imaginary part.
   const MatrixXcd loads = in.loads(purpose.loads);
-  Purpose of_both{purpose.highest, purpose.highest_speed, MatrixXd(2 * in.size(), 2 * loads.cols())};
+  Purpose of_both = purpose;
+  if (of_both.modes > 0) of_both.modes *= 2;
+  of_both.loads.resize(2 * in.size(), 2 * loads.cols());
   of_both.loads << loads.real(), loads.imag(), loads.imag(), -loads.real();
   const Reduced reduced = reduce(doubled(sector, in), twice, of_both, control);
   WaveStructure half_of;

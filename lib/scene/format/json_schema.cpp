@@ -430,6 +430,12 @@ Node rotation() {
   return of(std::move(object));
 }
 
+Node reduction() {
+  Object properties;
+  for (const Key& key : reduction_keys().keys()) properties.push_back({key.name, described_key(key)});
+  return of(object_of(std::move(properties), {}));
+}
+
 Node matrices_of_structure() {
   return of(object_of({{"mass", matrix_file()},
                        {"stiffness", matrix_file()},
@@ -439,6 +445,7 @@ Node matrices_of_structure() {
                        {"circulatory", matrix_file()},
                        {"unsymmetric", unsymmetric()},
                        {"highest_frequency", number_or_text()},
+                       {"reduction", reduction()},
                        {"faces", of_type("string")},
                        {"copies", copies()},
                        {"stiffness_factors", list_of(above_zero())}},

@@ -59,7 +59,7 @@ class Files {
   Files(const Location& place, const Field& frequency, const FileSource& source, Faults& faults)
       : keys_(place,
               {"mass", "stiffness", "damping", "stiffness_speed_squared", "gyroscopic", "circulatory",
-               "unsymmetric", "highest_frequency", "faces", "copies", "stiffness_factors"},
+               "unsymmetric", "highest_frequency", "reduction", "faces", "copies", "stiffness_factors"},
               faults),
         reading_{keys_, frequency, no_parameters(), no_dofs_, faults, source},
         faults_(faults) {}
@@ -79,6 +79,7 @@ class Files {
     matrices.circulatory = read_matrix("circulatory", false, Form::skew);
     if (const Location highest = keys_.find("highest_frequency"); highest.node != nullptr)
       matrices.highest_frequency = read_number(highest, reading_.frequency, faults_).value_or(0);
+    read_reduction(matrices);
     if (!matrices.stiffness.matrix || !matrices.mass.matrix) return {};
     check_size("mass", matrices.mass, matrices.size());
     check_size("damping", matrices.damping, matrices.size());
@@ -129,6 +130,21 @@ class Files {
       matrices.stiffness_factors =
           read_factors(factors, matrices.copies, above_0, "a factor of the stiffness for each copy", faults_)
               .value_or(std::vector<double>());
+  }
+
+  void read_reduction(Matrices& matrices) {
+    const Location place = keys_.find("reduction");
+    if (place.node == nullptr) return;
+    std::vector<std::string> known;
+    for (const Key& key : reduction_keys().keys()) known.push_back(key.name);
+    const Keys own(place, known, faults_);
+    if (!own.is_object()) return;
+    const Reading from{own, reading_.frequency, no_parameters(), no_dofs_, faults_, reading_.source};
+    matrices.reduction = reduction_keys().read(from).as<Reduction>();
+    if (!keys_.has("highest_frequency"))
+      faults_.add(place.pointer,
+                  "found it without \"highest_frequency\", must be next to it: the highest frequency of a "
+                  "harmonic to which the structure is reduced");
   }
 
   void read_faces(Matrices& matrices) {

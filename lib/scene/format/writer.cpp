@@ -154,6 +154,11 @@ void add_matrices(const Matrices& matrices, Node::Object& structure) {
   if (!unsymmetric.empty()) files.push_back({"unsymmetric", node(unsymmetric)});
   if (matrices.highest_frequency > 0)
     files.push_back({"highest_frequency", node(matrices.highest_frequency)});
+  if (matrices.reduction != Reduction{}) {
+    Node::Object reduction;
+    reduction_keys().write(Settings::of(matrices.reduction), {}, reduction);
+    files.push_back({"reduction", {std::move(reduction)}});
+  }
   if (matrices.faces_file.text) files.push_back({"faces", node(matrices.faces_file.path)});
   if (matrices.copies > 1) files.push_back({"copies", node(matrices.copies)});
   if (!matrices.stiffness_factors.empty())

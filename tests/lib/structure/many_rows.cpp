@@ -131,3 +131,28 @@ TEST_CASE("a reduction to many rows is at least as accurate as it reports") {
     CHECK(reduced.error < 1.1 * accuracy + 1e-12);
   }
 }
+
+TEST_CASE("the error of a reduction by modes is at least the true one, and not far above it") {
+  const bool alike = GENERATE(false, true), damped = GENERATE(false, true);
+  const auto method = GENERATE(scene::ReductionMethod::craig_bampton, scene::ReductionMethod::rubin);
+  const int rows = 6, columns = 9, plane = rows * columns;
+  const scene::Matrices of = membranes(rows, columns, alike, damped);
+  std::vector<int> kept;
+  for (int i = 0; i < rows; ++i)
+    for (int side = 0; side < 2; ++side)
+      for (int j = 5; j < 9; ++j) kept.push_back(side * plane + i * columns + j);
+  MatrixXd loads(of.size(), 2);
+  for (int i = 0; i < of.size(); ++i) loads.row(i) << std::cos(1.7 * i * i), std::sin(0.9 * i);
+  if (GENERATE(false, true)) loads.resize(of.size(), 0);
+  const Structure whole = kept_first(of, kept, loads);
+  for (const int modes : {0, 6, 20}) {
+    structure::Purpose purpose{5, 0, loads};
+    purpose.method = method;
+    purpose.modes = modes;
+    const structure::Reduced reduced = structure::reduce(of, kept, purpose);
+    const double truth = true_error(whole, reduced, purpose.highest, static_cast<Index>(kept.size()));
+    CAPTURE(alike, damped, loads.cols(), modes, reduced.M.rows(), reduced.error, truth);
+    CHECK(truth < reduced.error);
+    CHECK(reduced.error < (damped ? 1000 : 100) * truth);
+  }
+}

@@ -223,6 +223,80 @@ TEST_CASE("a scene with matrices is written, read, checked and hashed with its f
   CHECK(scene::hash(scenes::parse(scene_of(files), folder.path())) != hash);
 }
 
+namespace {
+
+std::string files_reduced(const std::string& reduction, const std::string& highest = "200") {
+  std::string text = files;
+  text.insert(text.find("\"damping\": \"C"),
+              (highest.empty() ? "" : "\"highest_frequency\": " + highest + ", ") +
+                  "\"reduction\": " + reduction + ", ");
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a structure reduced by all of its modes is that of its masses and springs") {
+  const Folder folder = chain_files();
+  const scene::Scene by_parts = scenes::parse(scene_of(parts), folder.path());
+  const auto reduced = [&](const std::string& reduction) {
+    return scenes::parse(scene_of(files_reduced(reduction)), folder.path());
+  };
+  const scene::Scene fixed = reduced(R"({"method": "craig_bampton", "modes": 3})");
+  CHECK(contains(observables::prepare(fixed, {}),
+                 "of 5 rows was reduced to 2 of them and 3 coordinates of fixed-interface modes; error of"));
+  check_same(by_parts, fixed, 1e-10);
+  // The five natural frequencies are from 9 to 64 rad/s.
+  const scene::Scene free = reduced(R"({"method": "rubin", "cutoff": 50})");
+  CHECK(contains(observables::prepare(free, {}),
+                 "of 5 rows was reduced to 2 of them and 3 coordinates of free-interface modes; error of"));
+  check_same(by_parts, free, 1e-10);
+  const scene::Scene one = reduced(R"({"method": "craig_bampton", "modes": 1})");
+  CHECK(contains(observables::prepare(one, {}), "and 1 coordinates of fixed-interface modes"));
+  CHECK(scenes::response_at(one, 3).amplitude ==
+        Approx(scenes::response_at(by_parts, 3).amplitude).epsilon(2e-3));  // next to statics
+  CHECK(contains(observables::prepare(reduced(R"({"accuracy": 1e-6})"), {}), "and 3 coordinates; error of"));
+}
+
+TEST_CASE("how matrices are reduced is written, read, hashed and in the schema") {
+  const Folder folder = chain_files();
+  const std::string plain = scene::hash(scenes::parse(scene_of(files_reduced("{}")), folder.path()));
+  for (const std::string reduction :
+       {R"({"method": "krylov", "accuracy": 0.0001})", R"({"method": "craig_bampton", "modes": 0})",
+        R"({"method": "rubin", "cutoff": 50.0})"}) {
+    const scene::Scene s = scenes::parse(scene_of(files_reduced(reduction)), folder.path());
+    CAPTURE(reduction, scene::write(s));
+    CHECK(scenes::parse(scene::write(s), folder.path()) == s);
+    CHECK(scene::hash(s) != plain);
+    CHECK(scene::write(s).find("\"reduction\"") != std::string::npos);
+  }
+  CHECK(contains(scene::json_schema(test_catalogue::whole()), "\"craig_bampton\""));
+}
+
+TEST_CASE("faults of how matrices are reduced name the key") {
+  const Folder folder = chain_files();
+  const auto fault = [&](const std::string& reduction, const std::string& highest = "200") {
+    return fault_in_folder(files_reduced(reduction, highest), folder);
+  };
+  CHECK(fault("{}") == "none");
+  CHECK(contains(fault("3"), "/structure/matrices/reduction: found "));
+  CHECK(contains(fault("{}", ""), "/structure/matrices/reduction: found it without \"highest_frequency\""));
+  CHECK(contains(fault(R"({"method": "guyan"})"),
+                 "/structure/matrices/reduction/method: found \"guyan\", must be "));
+  CHECK(contains(fault(R"({"mode": 3})"), "did you mean \"modes\"?"));
+  CHECK(contains(fault(R"({"accuracy": 1e-12})"), "/structure/matrices/reduction/accuracy: found 1e-12"));
+  CHECK(contains(fault(R"({"method": "rubin", "modes": -1})"),
+                 "/structure/matrices/reduction/modes: found -1"));
+  CHECK(contains(fault(R"({"method": "rubin", "cutoff": 0})"),
+                 "/structure/matrices/reduction/cutoff: found 0"));
+  CHECK(contains(fault(R"({"method": "rubin", "accuracy": 1e-5})"),
+                 "/accuracy: found the key \"accuracy\" next to the method \"rubin\", must be left out"));
+  CHECK(contains(fault(R"({"modes": 3})"),
+                 "/modes: found the key \"modes\" next to the method \"krylov\", must be left out"));
+  CHECK(contains(fault(R"({"cutoff": 3})"), "/cutoff: found the key \"cutoff\" next to the method"));
+  CHECK(contains(fault(R"({"method": "rubin", "modes": 3, "cutoff": 3})"),
+                 "/modes: found the key \"modes\" next to \"cutoff\", must be one of them"));
+}
+
 TEST_CASE("what is wrong with matrices is reported with file, line and cause") {
   const Folder folder = chain_files();
   const auto with = [&](const std::string& name, const std::string& text) {

@@ -1,0 +1,84 @@
+#include <arcslip/scene/reduction.hpp>
+
+#include <arcslip/scene/keys/study_keys.hpp>
+
+#include <array>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace arcslip::scene {
+namespace {
+
+constexpr int most_modes = 10000;
+constexpr std::array<file::Word<ReductionMethod>, 3> reduction_methods = {
+    {{"krylov", ReductionMethod::krylov},
+     {"craig_bampton", ReductionMethod::craig_bampton},
+     {"rubin", ReductionMethod::rubin}}};
+constexpr Field dynamic_accuracy{
+    .name = "accuracy", .unit = "-", .lower = 1e-11, .upper = 1e-3, .help = "of the dynamic stiffness"};
+
+file::KeyGroup<Reduction> cutoff_key() {
+  return {{{"cutoff", KeyType::frequency, "frequency", "above 0", "", false,
+            "the modes up to this frequency, by default up to twice the `highest_frequency`"}},
+          [](const file::Reading& reading, Reduction& of) {
+            of.cutoff =
+                file::read_number(reading.keys.find("cutoff"), reading.frequency, reading.faults).value_or(0);
+          },
+          [](const Reduction& of, const Scene&, file::Node::Object& to) {
+            if (of.cutoff > 0) to.push_back({"cutoff", file::node(of.cutoff)});
+          }};
+}
+
+// Keys that the method does not have, and two that say the same.
+void check_keys_of_method(const file::Reading& reading, Reduction& of) {
+  const bool by_modes = of.method != ReductionMethod::krylov;
+  const auto fault = [&](const std::string& key, const std::string& what) {
+    if (reading.keys.has(key))
+      reading.faults.add(reading.keys.find(key).pointer, "found the key \"" + key + "\" " + what);
+  };
+  const std::string next_to = "next to the method \"" +
+                              std::string(file::word_of(reduction_methods, of.method)) +
+                              "\", must be left out: ";
+  if (by_modes)
+    fault("accuracy", next_to + "\"modes\" or \"cutoff\" decide it");
+  else
+    for (const char* key : {"modes", "cutoff"})
+      fault(key, next_to + "its coordinates are no modes; \"accuracy\" decides how many there are");
+  if (by_modes && reading.keys.has("cutoff")) fault("modes", "next to \"cutoff\", must be one of them");
+}
+
+file::KeysOf<Reduction> keys_of_reduction() {
+  file::KeysOf<Reduction> all;
+  all.add(file::word(
+      "method", &Reduction::method, reduction_methods,
+      "the coordinates next to the rows that the scene uses: those that the dynamic stiffness needs, "
+      "modes with these rows held, or modes with these rows free"));
+  auto of_accuracy = file::number(&Reduction::accuracy, dynamic_accuracy,
+                                  "of `\"krylov\"`: of the dynamic stiffness up to the `highest_frequency`");
+  of_accuracy.write = [](const Reduction& of, const Scene&, file::Node::Object& to) {
+    if (of.method == ReductionMethod::krylov) to.push_back({"accuracy", file::node(of.accuracy)});
+  };
+  of_accuracy.numbers = {};
+  all.add(std::move(of_accuracy));
+  auto modes = file::whole("modes", &Reduction::modes, 0, most_modes,
+                           "of the other two methods: how many, with those of motions as a rigid body");
+  modes.keys.front().otherwise.clear();
+  modes.write = [](const Reduction& of, const Scene&, file::Node::Object& to) {
+    if (of.modes >= 0) to.push_back({"modes", file::node(of.modes)});
+  };
+  all.add(std::move(modes));
+  all.add(cutoff_key());
+  all.check(check_keys_of_method);
+  return all;
+}
+
+}  // namespace
+
+const SettingsKeys& reduction_keys() {
+  static const file::KeysOf<Reduction> all = keys_of_reduction();
+  return all;
+}
+
+}  // namespace arcslip::scene

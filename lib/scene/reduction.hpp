@@ -1,0 +1,23 @@
+#pragma once
+// How a structure from matrices is reduced to the rows that a scene uses and to coordinates of all others.
+
+namespace arcslip::scene {
+
+class SettingsKeys;
+
+enum class ReductionMethod { krylov, craig_bampton, rubin };
+
+struct Reduction {
+  ReductionMethod method = ReductionMethod::krylov;
+  double accuracy = 1e-11;  // of the dynamic stiffness, by Krylov spaces
+  int modes = -1;           // of the other methods; -1: those up to the cutoff
+  double cutoff = 0;        // in the scene's unit; 0: cutoff_of_highest times the highest frequency
+  friend bool operator==(const Reduction&, const Reduction&) = default;
+};
+
+inline constexpr double cutoff_of_highest = 2;
+
+/// The keys of a Reduction in a scene file.
+const SettingsKeys& reduction_keys();
+
+}  // namespace arcslip::scene
