@@ -7,6 +7,7 @@
 #include <arcslip/scene/patch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -35,6 +36,38 @@ std::optional<double> parsed_number(std::string_view text) {
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || rest != end || !std::isfinite(value)) return {};
   return value;
+}
+
+using Axis = std::array<double, 3>;
+
+double dot(const Axis& a, const Axis& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Axis cross(const Axis& a, const Axis& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+// Components next to rounding are 0, so that a plane model needs no third one.
+std::optional<Axis> of_length_one(Axis a) {
+  constexpr double rounding = 1e-15;
+  const double length = std::hypot(a[0], a[1], a[2]);
+  if (!(length > 0) || !std::isfinite(length)) return {};
+  for (double& of : a) of = std::abs(of) > rounding * length ? of / length : 0;
+  return a;
+}
+// The part of an axis across a normal; without an axis that of the first of x, y, z that is farthest from it.
+std::optional<Axis> tangent_to(const Axis& normal, std::optional<Axis> along) {
+  constexpr double least = 1e-6;  // of an axis of length 1: less is none
+  if (!along) {
+    const auto farthest = std::min_element(normal.begin(), normal.end(),
+                                           [](double a, double b) { return std::abs(a) < std::abs(b); });
+    along = Axis{};
+    (*along)[static_cast<std::size_t>(farthest - normal.begin())] = 1;
+  }
+  const double share = dot(*along, normal);
+  Axis across;
+  for (std::size_t c = 0; c < 3; ++c) across[c] = (*along)[c] - share * normal[c];
+  if (dot(across, across) < least * least) return {};
+  return of_length_one(across);
 }
 
 // The rows of one file. Faults are at the key of the file, and say the line.
@@ -90,8 +123,15 @@ class PatchRows {
   }
 
  private:
+  // Of the displacements of a row: places, or nodes and the axes at their contact.
+  std::vector<std::string> columns_of_places() const {
+    if (!by_nodes_) return places_;
+    return {"nodes", "against", "normal", "tangent"};
+  }
+
   bool header(const std::vector<std::string_view>& cells) {
-    std::vector<std::string> known = places_;
+    by_nodes_ = std::find(cells.begin(), cells.end(), "nodes") != cells.end();
+    std::vector<std::string> known = columns_of_places();
     known.insert(known.end(), {"area", "pressure", "name"});
     const auto of_law = patch_.law->fields(patch_.law_options);
     if (std::any_of(of_law.begin(), of_law.end(),
@@ -106,7 +146,8 @@ class PatchRows {
         fault("found the column " + shown(cell) + " again");
       columns_.push_back(column);
     }
-    std::vector<std::string> needed = places_;
+    std::vector<std::string> needed =
+        by_nodes_ ? std::vector<std::string>{"nodes", "normal"} : std::vector<std::string>(places_);
     needed.emplace_back("area");
     for (const std::string& column : needed)
       if (std::find(columns_.begin(), columns_.end(), column) == columns_.end())
@@ -139,11 +180,105 @@ class PatchRows {
     else if (!names_.insert(own).second)
       fault("found the name " + shown(own) + " again; the contacts of a patch must have different names");
     row.name = name_ + '.' + own;
-    for (const std::string& place : places_) row.directions.push_back(direction(*cell(cells, place)));
+    if (by_nodes_)
+      row.directions = directions_of_nodes(cells);
+    else
+      for (const std::string& place : places_) row.directions.push_back(direction(*cell(cells, place)));
     row.area = number(cells, area_field);
     row.gap = number(cells, gap_field);
     row.pressure = number(cells, pressure_field);
     return row;
+  }
+
+  // "0 0 1", of length 1.
+  std::optional<Axis> axis(const std::vector<std::string_view>& cells, std::string_view column) {
+    const auto text = cell(cells, column);
+    if (!text || text->empty()) return {};
+    Axis found{};
+    std::size_t count = 0;
+    bool numbers = true;
+    for (const std::string_view word : split(*text, ' ')) {
+      if (word.empty()) continue;
+      const auto value = parsed_number(word);
+      if (value && count < 3) found[count] = *value;
+      numbers = numbers && value;
+      ++count;
+    }
+    auto axis = numbers && count == 3 ? of_length_one(found) : std::nullopt;
+    if (!axis)
+      fault("found the " + std::string(column) + " " + shown(*text) +
+            ", must be three numbers that are not all 0, as in 0 0.6 0.8");
+    return axis;
+  }
+
+  struct WeightedNode {
+    std::string name;
+    double weight;
+  };
+
+  // "a1 a2", "0.25*a1 0.5*a2 0.25*a3": their mean.
+  std::vector<WeightedNode> nodes(std::string_view text) {
+    std::vector<WeightedNode> all;
+    double sum = 0;
+    for (const std::string_view word : split(text, ' ')) {
+      if (word.empty()) continue;
+      WeightedNode node{std::string(word), 1};
+      if (const auto star = word.find('*'); star != std::string_view::npos)
+        if (const auto weight = parsed_number(word.substr(0, star)))
+          node = {std::string(word.substr(star + 1)), *weight};
+      if (!(node.weight > 0)) {
+        fault("found the weight " + number_text(node.weight) + " of the node " + shown(node.name) +
+              ", must be above 0");
+        return {};
+      }
+      sum += node.weight;
+      all.push_back(std::move(node));
+    }
+    for (WeightedNode& node : all) node.weight /= sum;
+    return all;
+  }
+
+  // Of the mean displacement of the nodes, less that of those against them, along an axis.
+  Direction direction_along(const Axis& axis, const std::vector<WeightedNode>& own,
+                            const std::vector<WeightedNode>& against) {
+    static constexpr std::array<const char*, 3> names = {".x", ".y", ".z"};
+    Direction direction;
+    const auto add_all = [&](const std::vector<WeightedNode>& nodes, double sign) {
+      for (const WeightedNode& node : nodes)
+        for (std::size_t c = 0; c < 3; ++c)
+          if (node.name != ground && axis[c] != 0 &&
+              !add(node.name + names[c], sign * node.weight * axis[c], direction))
+            return false;
+      return true;
+    };
+    if (!add_all(own, 1) || !add_all(against, -1)) return {};
+    std::erase_if(direction, [](const Term& term) { return term.weight == 0; });
+    if (direction.empty()) fault("found the same nodes on both sides, must be those of two surfaces");
+    return direction;
+  }
+
+  std::vector<Direction> directions_of_nodes(const std::vector<std::string_view>& cells) {
+    const std::size_t before = faults_.count();
+    const std::vector<WeightedNode> own = nodes(*cell(cells, "nodes")),
+                                    against = nodes(cell(cells, "against").value_or(ground));
+    if (own.empty() && faults_.count() == before) fault("found no nodes, must have at least one");
+    const auto normal = axis(cells, "normal"), along = axis(cells, "tangent");
+    if (!normal && faults_.count() == before) fault("found no normal, must be three numbers");
+    if (faults_.count() > before) return {};
+    const auto tangent = tangent_to(*normal, along);
+    if (!tangent) {
+      fault("found the tangent " + shown(*cell(cells, "tangent")) + ", must not be along the normal");
+      return {};
+    }
+    std::vector<Direction> all;
+    for (const std::string& place : places_) {
+      const Axis of = place == "normal"         ? *normal
+                      : place == "tangential_2" ? cross(*normal, *tangent)
+                                                : *tangent;
+      all.push_back(direction_along(of, own, against));
+      if (faults_.count() > before) break;
+    }
+    return all;
   }
 
   // "a", "-a", "a - b", "0.6*a.x + 0.8*a.z": terms between signs that stand alone.
@@ -203,6 +338,7 @@ class PatchRows {
   std::string pointer_;
   Faults& faults_;
   std::vector<std::string> places_, columns_;
+  bool by_nodes_ = false;
   std::set<std::string> names_;
   std::size_t line_ = 0;            // being read; 0: none
   std::vector<std::size_t> lines_;  // of the rows
