@@ -1,6 +1,6 @@
-#include <arcslip/structure/component_modes.hpp>
-
+// The methods of Craig and Bampton and of Rubin (reduction.hpp): V from modes.
 #include <arcslip/structure/products.hpp>
+#include <arcslip/structure/static_condensation.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +20,16 @@ constexpr double converged_to = 1e-8;       // of a residual, next to its theta
 constexpr double independent = 1e-6;  // of a vector from modes, next to those before it, in the norm of A
 constexpr double floating = 1e-8;     // the square of a natural frequency, next to the shift of statics
 
+// Modes A v theta = M v, V^T A V = 1, from the largest theta on.
+struct LargestModes {
+  VectorXd theta;
+  MatrixXd V;
+};
+
+// The modes of a positive definite A and a positive semidefinite M: `count` of them, or without a count (-1)
+// those above `least` > 0; fewer where there are no more with mass. By Lanczos' method for blocks, with full
+// orthogonalisation, until A^-1 M v - theta v is below converged_to theta in the norm of A (G. H. Golub and
+// R. Underwood, The block Lanczos method for computing eigenvalues, Mathematical Software III, 1977).
 class Lanczos {
  public:
   Lanczos(const InteriorFactor& A, const Sparse& M, Index count, double least)
@@ -125,12 +135,12 @@ void take(StaticCondensation& of, MatrixXd W, MatrixXd X) {
   of.project_from(0);
 }
 
-}  // namespace
-
 LargestModes largest_modes(const InteriorFactor& A, const Sparse& M, Index count, double least) {
   if (count == 0) return {VectorXd(0), MatrixXd(M.rows(), 0)};
   return Lanczos(A, M, count, least).run();
 }
+
+}  // namespace
 
 void take_modes(StaticCondensation& of, const Purpose& purpose, const control::Control& control) {
   const Sparse& M_ii = of.operators().front().of.ii;

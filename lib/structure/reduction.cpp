@@ -2,7 +2,6 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/control/interruptible.hpp>
-#include <arcslip/structure/component_modes.hpp>
 #include <arcslip/structure/products.hpp>
 #include <arcslip/structure/static_condensation.hpp>
 

@@ -79,6 +79,10 @@ class StaticCondensation {
   Projected P_;
 };
 
+/// Gives V its vectors by purpose.method, Craig-Bampton or Rubin (component_modes.cpp). of: condensed, with
+/// an empty V.
+void take_modes(StaticCondensation& of, const Purpose& purpose, const control::Control& control);
+
 [[noreturn]] void refuse(const std::string& cause);
 [[noreturn]] void refuse_overflow();
 /// Of statics, without sigma.
