@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -20,11 +21,13 @@ void DiagramTracer::incomplete(const std::string& why) {
 Diagram DiagramTracer::run() {
   first_branch();
   // Branch points are added meanwhile, those of one depth before those of the next.
-  for (std::size_t k = 0; k < diagram_.branch_points.size() && !stopped_; ++k) {
-    if (diagram_.branch_points[k].depth >= limits_.depth) break;
-    for (std::size_t h = 0; h < diagram_.branch_points[k].half_branches.size() && !stopped_; ++h) leave(k, h);
+  while (!stopped_) {
+    const auto place = agenda_.next();
+    if (!place || agenda_.points[place->point].depth >= limits_.depth) break;
+    leave(*place);
   }
   if (stopped_) incomplete("stopped by the caller");
+  diagram_.branch_points = std::move(agenda_.points);
   return std::move(diagram_);
 }
 
@@ -54,9 +57,8 @@ void DiagramTracer::first_branch() {
   name_events(0);
 }
 
-// Whether a half-branch is still to be traced and can be; otherwise notes why the diagram is incomplete.
+// Whether a half-branch can be traced; otherwise notes why the diagram is incomplete.
 bool DiagramTracer::may_trace(const Junction& junction, HalfBranch& half) {
-  if (half.branch >= 0) return false;
   if (half.untraced.empty() && junction.event < 0)  // beyond a terminal event that became certain only later
     half.untraced = "the branch that met it ended before reaching it";
   if (half.untraced.empty() && static_cast<int>(diagram_.branches.size()) >= limits_.branches)
@@ -89,16 +91,19 @@ Event DiagramTracer::as_event_of(const Junction& origin, const Vector& direction
 }
 
 // Traces a half-branch, unless it is known, and its opposite.
-void DiagramTracer::leave(std::size_t k, std::size_t h) {
-  const auto half = [&](std::size_t i) -> HalfBranch& { return diagram_.branch_points[k].half_branches[i]; };
-  if (!may_trace(diagram_.branch_points[k], half(h))) return;
-  const auto forward = enter(k, half(h));
+void DiagramTracer::leave(const Agenda::Place& place) {
+  const auto [k, h] = place;
+  const auto half = [&](std::size_t i) -> HalfBranch& {
+    return agenda_.points[place.point].half_branches[i];
+  };
+  if (!may_trace(agenda_.points[k], half(h))) return;
+  const auto forward = enter(place);
   if (!forward) {
     if (half(h).branch < 0) incomplete(half(h).untraced);
     return;
   }
   const int index = static_cast<int>(diagram_.branches.size());
-  const int depth = diagram_.branch_points[k].depth + 1;
+  const int depth = agenda_.points[k].depth + 1;
   half(h).branch = index;
   Branch ahead = follow(*forward, index, depth);
   DiagramBranch now;
@@ -108,15 +113,15 @@ void DiagramTracer::leave(std::size_t k, std::size_t h) {
   diagram_.branches.push_back(std::move(now));
 
   const bool closed = ahead.stop.reason == StopReason::closed;
-  const Junction origin = diagram_.branch_points[k];
+  const Junction origin = agenda_.points[k];
   Event event = as_event_of(origin, half(h).direction);
   shift(ahead, way_from(origin, ahead));
   Branch whole;
   whole.linear_solver = ahead.linear_solver;
-  const auto opposite = simple(event) ? nearest(origin, -half(h).direction) : std::nullopt;
+  const auto opposite = simple(event) ? agenda_.nearest(origin, -half(h).direction, *with_) : std::nullopt;
   if (!closed && opposite && half(*opposite).branch < 0 && !stopped_) {
     diagram_.branches.back().branch = ahead;  // the backward trace may reach it
-    if (const auto backward = enter(k, half(*opposite))) {
+    if (const auto backward = enter({k, *opposite})) {
       half(*opposite).branch = index;
       whole = follow(*backward, index, depth);
       diagram_.branches.back().begin = whole.stop;
@@ -135,75 +140,62 @@ void DiagramTracer::leave(std::size_t k, std::size_t h) {
   name_events(index);
 }
 
-Branch DiagramTracer::follow(const Entry& entry, int branch, int depth) {
+Branch DiagramTracer::follow(const Beginning& from, int branch, int depth) {
   Options options = options_;
-  if (entry.step > 0) options.step.initial = entry.step;
+  if (from.step > 0) options.step.initial = from.step;
   Observer observer;
   if (observer_)
     observer = [&](const Accepted& now, const Event* event) {
       stopped_ = !observer_(now, event);
       return !stopped_;
     };
-  Tracer tracer(problem_, entry.start, options, monitors_, observer);
-  if (!with_)
-    with_ = std::make_unique<Corrector>(*problem_, start_.p, free_, options_.newton, counts_,
-                                        options_.linear_solver);
-  std::size_t passed = 0;
   Arrival last = Arrival::first;
   Event at;  // of the last arrival
-  const auto look = [&](const Branch& branch_so_far) {
-    std::size_t met = 0;
-    for (const Event& event : branch_so_far.events) {
-      if (last != Arrival::first) return;
-      if (!std::holds_alternative<BranchPoint>(event.data) || met++ < passed) continue;
-      ++passed;
-      last = pass(event, entry, branch, depth);
-      at = event;
-    }
-  };
-  while (last == Arrival::first && tracer.step()) look(tracer.branch());
-  look(tracer.branch());
-  Branch traced = tracer.take();
+  Branch traced =
+      trace_until(problem_, from.start, options, monitors_, std::move(observer), [&](const Event& event) {
+        if (!with_)
+          with_ = std::make_unique<Corrector>(*problem_, start_.p, free_, options_.newton, counts_,
+                                              options_.linear_solver);
+        last = pass(event, from, branch, depth);
+        at = event;
+        return last != Arrival::first;
+      });
   drop_empty_step(traced);
   if (last == Arrival::repeated)
     traced.stop = {StopReason::user, 0, 0, "reached a half-branch that was already traced"};
   if (last == Arrival::home) {
     const Vector x = joined(at.point.u, at.point.parameter);
-    const Junction& origin = diagram_.branch_points[*entry.origin];
-    cut(traced, at, distance(*with_, x, joined(origin.u, origin.parameter)), reach(x));
+    const Junction& origin = agenda_.points[*from.origin];
+    cut(traced, at, distance(*with_, x, joined(origin.u, origin.parameter)),
+        limits_.same_place * (1 + with_->norm_u(x)));
   }
   return traced;
 }
 
-Arrival DiagramTracer::pass(const Event& event, const Entry& entry, int branch, int depth) {
+Arrival DiagramTracer::pass(const Event& event, const Beginning& from, int branch, int depth) {
   if (event.point.parameter < options_.lower || event.point.parameter > options_.upper) return Arrival::first;
   const BranchPoint& crossing = std::get<BranchPoint>(event.data);
-  std::size_t k = index_of(event);
-  if (k == diagram_.branch_points.size()) k = meet(event, depth);
-  Junction& junction = diagram_.branch_points[k];
+  std::size_t k = agenda_.index_of(problem_, event, *with_);
+  if (k == agenda_.points.size()) k = meet(event, depth);
+  Junction& junction = agenda_.points[k];
   const Vector& beyond = simple(event) ? crossing.tangents.front() : crossing.tangents.back();
-  const std::size_t from = half_towards(junction, -crossing.tangents.front());
-  const std::size_t to = half_towards(junction, beyond);
-  if (junction.half_branches[from].branch >= 0) return Arrival::repeated;
-  junction.half_branches[from].branch = branch;
-  if (entry.origin == k && simple(event) && with_->dot(beyond, entry.start.tangent) > same_direction)
+  const std::size_t arrived = half_towards(junction, -crossing.tangents.front());
+  const std::size_t opposite = half_towards(junction, beyond);
+  if (junction.half_branches[arrived].branch >= 0) return Arrival::repeated;
+  junction.half_branches[arrived].branch = branch;
+  if (from.origin == k && simple(event) && with_->dot(beyond, from.start.tangent) > limits_.same_direction)
     return Arrival::home;
-  if (junction.half_branches[to].branch < 0) junction.half_branches[to].branch = branch;
+  if (junction.half_branches[opposite].branch < 0) junction.half_branches[opposite].branch = branch;
   return Arrival::first;
 }
 
 std::size_t DiagramTracer::meet(const Event& event, int depth) {
   const BranchPoint& crossing = std::get<BranchPoint>(event.data);
   Junction junction;
-  junction.u = event.point.u;
-  junction.parameter = event.point.parameter;
-  junction.depth = depth;
   if (simple(event)) {
-    for (const Vector& tangent : crossing.tangents) {
-      junction.half_branches.push_back({tangent, -1, {}});
-      junction.half_branches.push_back({-tangent, -1, {}});
-    }
+    junction = Agenda::met(problem_, event);
   } else {
+    junction = {problem_, event.point.u, event.point.parameter};
     junction.half_branches.push_back({-crossing.tangents.front(), -1, {}});
     junction.half_branches.push_back({crossing.tangents.back(), -1, {}});
     if (!event.nonsmooth && depth < limits_.depth)
@@ -211,35 +203,44 @@ std::size_t DiagramTracer::meet(const Event& event, int depth) {
                  " is not simple: other branches through it are not traced");
     if (event.nonsmooth) look_for_others(junction, joined(junction.u, junction.parameter), crossing);
   }
-  diagram_.branch_points.push_back(std::move(junction));
-  return diagram_.branch_points.size() - 1;
-}
-
-// The branch point that an event is: there, and with the same branches, as two may lie closely together.
-std::size_t DiagramTracer::index_of(const Event& event) const {
-  const Vector x = joined(event.point.u, event.point.parameter);
-  const std::vector<Vector>& tangents = std::get<BranchPoint>(event.data).tangents;
-  std::size_t k = 0;
-  for (; k < diagram_.branch_points.size(); ++k) {
-    const Junction& junction = diagram_.branch_points[k];
-    if (distance(*with_, joined(junction.u, junction.parameter), x) > reach(x)) continue;
-    if (!simple(event) || std::all_of(tangents.begin(), tangents.end(), [&](const Vector& t) {
-          return nearest(junction, t) || nearest(junction, -t);
-        }))
-      break;
-  }
-  return k;
+  junction.depth = depth;
+  agenda_.points.push_back(std::move(junction));
+  return agenda_.points.size() - 1;
 }
 
 void DiagramTracer::name_events(int branch) {
   const auto& events = diagram_.branches[static_cast<std::size_t>(branch)].branch.events;
   for (std::size_t e = 0; e < events.size(); ++e) {
     if (!std::holds_alternative<BranchPoint>(events[e].data)) continue;
-    const std::size_t k = index_of(events[e]);
-    if (k == diagram_.branch_points.size() || diagram_.branch_points[k].branch >= 0) continue;
-    diagram_.branch_points[k].branch = branch;
-    diagram_.branch_points[k].event = static_cast<int>(e);
+    const std::size_t k = agenda_.index_of(problem_, events[e], *with_);
+    if (k == agenda_.points.size() || agenda_.points[k].branch >= 0) continue;
+    agenda_.points[k].branch = branch;
+    agenda_.points[k].event = static_cast<int>(e);
   }
+}
+
+void check(const DiagramOptions& options) {
+  const auto reject = [](const std::string& what, double value, const char* bound) {
+    std::ostringstream text;
+    text << what << " of a diagram is " << value << ", must be " << bound;
+    throw std::invalid_argument(text.str());
+  };
+  const auto in_unit_interval = [&](const char* name, double value) {
+    if (!(value > 0 && value < 1)) reject(name, value, "between 0 and 1");
+  };
+  if (options.depth < 0) reject("the depth", options.depth, ">= 0");
+  if (options.branches < 1) reject("the maximum number of branches", options.branches, ">= 1");
+  if (!(options.same_place > 0)) reject("same_place", options.same_place, "> 0");
+  in_unit_interval("same_direction", options.same_direction);
+  if (!(options.entry.shortest > 0)) reject("entry.shortest", options.entry.shortest, "> 0");
+  if (!(options.entry.longest >= options.entry.shortest))
+    reject("entry.longest", options.entry.longest, ">= entry.shortest");
+  in_unit_interval("entry.reduction", options.entry.reduction);
+  in_unit_interval("entry.error", options.entry.error);
+  in_unit_interval("entry.turn", options.entry.turn);
+  in_unit_interval("nearby.segment", options.nearby.segment);
+  in_unit_interval("nearby.same_point", options.nearby.same_point);
+  if (options.oblique_probes < 0) reject("oblique_probes", options.oblique_probes, ">= 0");
 }
 
 Diagram trace_diagram(std::shared_ptr<const Problem> problem, const Start& start, const Options& options,
@@ -248,13 +249,7 @@ Diagram trace_diagram(std::shared_ptr<const Problem> problem, const Start& start
   if (given(problem)->initial_state().size() != 0)
     throw std::invalid_argument(
         "a diagram is of a problem without a state: branches that meet have left different ones");
-  if (diagram.depth < 0)
-    throw std::invalid_argument("the depth of a diagram is " + std::to_string(diagram.depth) +
-                                ", must be >= 0");
-  if (diagram.branches < 1)
-    throw std::invalid_argument("the maximum number of branches of a diagram is " +
-                                std::to_string(diagram.branches) + ", must be >= 1");
-  if (!(diagram.same_place > 0)) throw std::invalid_argument("same_place must be larger than 0");
+  check(diagram);
   return DiagramTracer(std::move(problem), start, options, diagram, std::move(monitors), std::move(observer))
       .run();
 }

@@ -18,11 +18,41 @@
 
 namespace arcslip::continuation {
 
+/// The first solution on a half-branch is sought at x + h t, normal to t, first with the longest h, then with
+/// shorter ones, until it is certain that no other half-branch is meant.
+struct EntryOptions {
+  double longest = 1e-3;    // h, relative to 1 + |u|, in scales: well above what branch points are located to
+  double shortest = 1e-6;   // below, corrections are no longer large next to the tolerance of Newton's method
+  double reduction = 0.25;  // of h from one attempt to the next: five of them
+  double error = 0.25;      // of the distance from x + h t to the nearest other half-branch: the largest
+                            // correction. What is nearer to t than to the other, with as much again to spare
+  double turn = 0.3;        // of the angle to it: the largest turn of the tangent, for the same reason
+};
+
+/// Whether a solution lies on a branch that is known: between two of its points, on their cubic.
+struct NearbyOptions {
+  double segment =
+      0.05;  // of a segment: beyond its ends, and off its cubic, from where its solution is sought
+  double same_point =
+      1e-2;  // of h: solutions that are closer are one. They agree to rounding, or are h apart
+};
+
 struct DiagramOptions {
   int depth = 1;             // maximum; the first branch has depth 0, those that cross it 1, ...
   int branches = 100;        // maximum
-  double same_place = 1e-6;  // closer branch points are the same, in scales, relative to 1 + |u|
+  double same_place = 1e-6;  // closer branch points are the same, in scales, relative to 1 + |u|: some
+                             // hundred times what they are located to
+  double same_direction =
+      0.95;  // cosine of the angle (18 degrees) up to which half-branches of one point are
+             // one. Wide, since tangents at arrival are less accurate where branches cross flat
+  EntryOptions entry{};
+  NearbyOptions nearby{};
+  int oblique_probes = 8;  // where pieces meet: directions in which they are searched for, besides the
+                           // tangents and the parameter, each with two linearizations
 };
+
+/// Throws std::invalid_argument, with the value and its bound, for an option that is not valid.
+void check(const DiagramOptions& options);
 
 /// One way to leave a branch point.
 struct HalfBranch {
@@ -35,11 +65,14 @@ struct HalfBranch {
 /// F meet, the half-branches next to the branch traced are searched for, and traced if there are two. Of
 /// others, only the half-branches of the branch traced are known.
 struct Junction {
-  Vector u;  // n
+  std::shared_ptr<const Problem> problem;  // of which it is a solution
+  Vector u;                                // n
   double parameter = 0;
   int depth = 0;                // of the branch that met it
   int branch = -1, event = -1;  // that branch, and the event on it
-  std::vector<HalfBranch> half_branches;
+  std::vector<HalfBranch> half_branches{};
+  bool images = false;  // the opposite of the only half-branch is its image by a symmetry, so that branches
+                        // arrive on it from both sides: where a problem widens (widening.hpp)
 };
 
 /// A branch through its origin, traced in both directions and joined: arclength is 0 at the origin and

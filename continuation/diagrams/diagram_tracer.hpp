@@ -1,6 +1,7 @@
 #pragma once
 // Construction of a diagram: the branches to trace, and the branch points with their half-branches.
 
+#include <arcslip/continuation/diagrams/agenda.hpp>
 #include <arcslip/continuation/diagrams/diagram.hpp>
 #include <arcslip/continuation/tracing/start.hpp>
 
@@ -12,13 +13,6 @@
 #include <vector>
 
 namespace arcslip::continuation {
-
-/// The start of a half-branch.
-struct Entry {
-  Start start;
-  double step = 0;
-  std::optional<std::size_t> origin = {};  // index of the branch point it leaves
-};
 
 /// How a branch reaches a branch point: on a new half-branch, on one traced before, or on the opposite of the
 /// one on which it left.
@@ -35,7 +29,8 @@ class DiagramTracer {
         options_(options),
         limits_(limits),
         monitors_(std::move(monitors)),
-        observer_(std::move(observer)) {
+        observer_(std::move(observer)),
+        agenda_(limits) {
     const bool has_monitor = std::any_of(monitors_.begin(), monitors_.end(), [](const Monitor& monitor) {
       return monitor.kind == MonitorKind::branch_point;
     });
@@ -45,24 +40,25 @@ class DiagramTracer {
   Diagram run();
 
  private:
-  static constexpr double same_direction = 0.95;  // cosine
+  // Where a branch begins: at the start of the diagram, or on a half-branch of a branch point.
+  struct Beginning {
+    Start start;
+    double step = 0;
+    std::optional<std::size_t> origin{};  // index of the branch point
+  };
 
   void first_branch();
-  void leave(std::size_t junction, std::size_t half);
+  void leave(const Agenda::Place& place);
   bool may_trace(const Junction& junction, HalfBranch& half);
   double way_from(const Junction& origin, const Branch& branch) const;
   Event as_event_of(const Junction& origin, const Vector& direction) const;
-  Branch follow(const Entry& entry, int branch, int depth);
-  Arrival pass(const Event& event, const Entry& entry, int branch, int depth);
+  Branch follow(const Beginning& from, int branch, int depth);
+  Arrival pass(const Event& event, const Beginning& from, int branch, int depth);
   std::size_t meet(const Event& event, int depth);
   void look_for_others(Junction& junction, const Vector& x, const BranchPoint& known);
-  std::optional<Entry> enter(std::size_t k, HalfBranch& half);
-  int known_branch(const Vector& v, const Vector& tangent, double step, double angle);
-  std::optional<std::size_t> nearest(const Junction& junction, const Vector& direction) const;
+  std::optional<Beginning> enter(const Agenda::Place& place);
+  int known_branch(const Entry& entry, double angle);
   std::size_t half_towards(Junction& junction, const Vector& direction);
-  double angle_to_others(const Junction& junction, const HalfBranch& half) const;
-  double reach(const Vector& x) const { return limits_.same_place * (1 + with_->norm_u(x)); }
-  std::size_t index_of(const Event& event) const;
   void name_events(int branch);
   void incomplete(const std::string& why);
 
@@ -73,8 +69,9 @@ class DiagramTracer {
   DiagramOptions limits_;
   std::vector<Monitor> monitors_;
   Observer observer_;
-  Diagram diagram_;
-  Counts counts_;  // of entries
+  Agenda agenda_;
+  Diagram diagram_;  // without its branch points, until it is complete
+  Counts counts_;    // of entries
   std::unique_ptr<Corrector> with_;
   bool stopped_ = false;
 };
