@@ -2,9 +2,10 @@
 
 #include <arcslip/analyses/branches/branch_description.hpp>
 #include <arcslip/analyses/branches/branch_recording.hpp>
-#include <arcslip/analyses/branches/half_branch_entry.hpp>
 #include <arcslip/analyses/branches/other_solutions.hpp>
 #include <arcslip/analyses/branches/stop_reason.hpp>
+#include <arcslip/analyses/branches/wider_harmonics.hpp>
+#include <arcslip/continuation/diagrams/agenda.hpp>
 #include <arcslip/observables/observe.hpp>
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/reasons.hpp>
@@ -18,14 +19,17 @@
 namespace arcslip::observables {
 namespace {
 
+using continuation::Agenda;
 using continuation::BranchPoint;
+using continuation::Junction;
+using continuation::NotWidened;
 using continuation::StopReason;
 using continuation::Vector;
+using continuation::WiderBranchPoints;
 using elements::Harmonics;
 
-constexpr double same_place = 1e-6;      // distance of two branch points, relative to 1 + |u|, in scales
-constexpr double near_end = 1e-3;        // the same
-constexpr double same_direction = 0.95;  // cosine
+constexpr double near_end = 1e-3;  // distance to a branch point, relative to 1 + |u|, in scales
+constexpr const char* several_cross = "several branches cross there at once, as in symmetric structures";
 
 Vector with_frequency(const ResponsePoint& point) {
   Vector v(point.unknowns.size() + 1);
@@ -34,10 +38,17 @@ Vector with_frequency(const ResponsePoint& point) {
   return v;
 }
 
-Vector with_frequency(continuation::In u, double omega) {
-  Vector v(u.size() + 1);
-  v << u, omega;
-  return v;
+bool have_same_harmonics(const continuation::Problem& a, const continuation::Problem& b) {
+  return static_cast<const hbm::HbmProblem&>(a).harmonics() ==
+         static_cast<const hbm::HbmProblem&>(b).harmonics();
+}
+
+const char* words(NotWidened why) {
+  if (why == NotWidened::several_cross) return several_cross;
+  if (why == NotWidened::jumps)
+    return "the stiffness of the contacts jumps there, so that the branch that leaves has no tangent of its "
+           "own";
+  return "no branch of these harmonics crosses there; more harmonics may resolve it";
 }
 
 class AllBranches {
@@ -52,7 +63,7 @@ class AllBranches {
       known_.push_back(std::move(known));
       find_half_branches(each.events);
     }
-    follow_ways();
+    follow_half_branches();
     if (may_have_several()) {
       search(f_.window.lower);
       search(f_.window.upper);
@@ -65,10 +76,7 @@ class AllBranches {
     }
     if (f_.limits.searches > 0 && is_full())
       known_.front().response.untraced.push_back("branches that no other reaches: " + limit_reported());
-    for (; next_ < ways_.size(); ++next_)
-      if (const Way& way = ways_[next_]; !way.followed)
-        untraced(way.from, way.kind, way.half_branch.x[way.half_branch.x.size() - 1],
-                 "stopped by the caller");
+    while (const auto way = agenda_.next()) untraced(agenda_.points[way->point], "stopped by the caller");
     std::vector<TracedBranch> all;
     for (Known& each : known_) all.push_back({std::move(each.response), each.problem, {}});
     return all;
@@ -81,22 +89,12 @@ class AllBranches {
     int doublings = 0;
   };
 
-  // A half-branch that leaves a known branch.
-  struct Way {
-    std::size_t from = 0;  // of known_
-    std::size_t event = 0;
-    std::string kind;
-    HalfBranch half_branch;
-    bool wider = false;  // of more harmonics: both halves are one
-    bool followed = false;
-  };
-
   // How a trace ends.
   struct End {
     double arclength = 0;
-    Vector x, tangent;
+    Vector x;
     std::string message{};
-    std::optional<std::size_t> way{};  // that leaves the known branch there
+    std::optional<std::size_t> point{};  // of the agenda, where a known branch is left
   };
 
   std::string frequency(double omega) const { return frequency_text(omega, f_.unit); }
@@ -107,6 +105,22 @@ class AllBranches {
                                                ": " + why);
   }
 
+  void untraced(const Junction& where, const std::string& why) {
+    untraced(branch_of(where), left_at(where).kind, where.parameter, why);
+  }
+
+  // The known branch that is left there, and at which event.
+  static std::size_t branch_of(const Junction& where) { return static_cast<std::size_t>(where.branch); }
+  const ResponseEvent& left_at(const Junction& where) const {
+    return known_[branch_of(where)].response.events[static_cast<std::size_t>(where.event)];
+  }
+
+  void add_to_agenda(Junction&& found, std::size_t branch, std::size_t event) {
+    found.branch = static_cast<int>(branch);
+    found.event = static_cast<int>(event);
+    agenda_.points.push_back(std::move(found));
+  }
+
   bool is_full() const { return static_cast<int>(known_.size()) >= f_.limits.most_branches; }
 
   std::string limit_reported() const {
@@ -114,136 +128,107 @@ class AllBranches {
            std::to_string(f_.limits.most_branches) + ")";
   }
 
-  // Of the last known branch: all branches that leave it. events: those of its trace.
+  // Of the last known branch: all half-branches that leave it. events: those of its trace.
   void find_half_branches(const std::vector<continuation::Event>& events) {
-    const std::size_t k = known_.size() - 1;
+    const Known& last = known_.back();
     std::map<std::string, WiderBranchPoints> wider;
-    const auto& all = known_[k].response.events;
     std::vector<Vector> solutions;
-    for (const ResponsePoint& point : known_[k].response.points) solutions.push_back(with_frequency(point));
-    for (std::size_t e = 0; e < all.size(); ++e) {
-      const std::string& kind = all[e].kind;
-      const bool doubles = kind == event_kinds::period_doubling;
-      if (!doubles && kind != event_kinds::symmetry_breaking) continue;
-      const double omega = all[e].point.omega;
-      const hbm::HbmProblem& narrow = *known_[k].problem;
-      const Harmonics harmonics =
-          without(narrow.harmonics(), doubles ? BrokenSymmetry::period : BrokenSymmetry::mirror_image);
-      if (doubles && known_[k].doublings >= f_.limits.doublings) {
-        untraced(k, kind, omega,
-                 "the period was doubled " + std::to_string(known_[k].doublings) +
-                     (known_[k].doublings == 1 ? " time" : " times") + " already (doublings)");
-        continue;
-      }
-      if (harmonics.order > scene::largest_order) {
-        untraced(k, kind, omega, "it would have harmonics above " + std::to_string(scene::largest_order));
-        continue;
-      }
-      auto at = wider.find(kind);
-      if (at == wider.end()) {
-        const auto wide = in_harmonics(narrow, harmonics, f_.window.lower);
-        if (const auto dof = model::drifting_dof(wide->model(), hbm::parameters_at(*wide, omega))) {
-          untraced(k, kind, omega,
-                   "no spring holds the mean position of " + model::coordinate_name(wide->model(), *dof));
-          continue;
-        }
-        at = wider.emplace(kind, WiderBranchPoints(known_[k].problem, wide)).first;
-      }
-      std::string why;
-      auto found = at->second.locate(solutions, all[e].after, why);
-      if (!found)
-        untraced(k, kind, omega, why);
-      else
-        ways_.push_back({k, e, kind, std::move(*found), true, false});
-    }
-    for (const continuation::Event& event : events) {
-      const auto* crossing = std::get_if<BranchPoint>(&event.data);
-      if (!crossing) continue;
-      const double omega = event.point.parameter;
-      const auto is_it = [&](const ResponseEvent& other) {
-        return other.kind == event_kinds::branch_point && other.point.omega == omega;
-      };
-      const auto at = std::find_if(all.begin(), all.end(), is_it);
-      if (at == all.end()) continue;  // beyond the end of the branch
-      if (!event.located || event.nonsmooth || crossing->type == BranchPoint::Type::multiple) {
-        untraced(k, at->kind, omega,
-                 event.nonsmooth ? "pieces of the laws of contact meet there"
-                                 : "several branches cross there at once, as in symmetric structures");
-        continue;
-      }
-      HalfBranch way{known_[k].problem, with_frequency(event.point.u, omega), crossing->tangents[1], 0};
-      continuation::Counts counts;
-      const continuation::Corrector with(*way.problem, hbm::parameters_at(*way.problem, omega),
-                                         model::frequency, {}, counts);
-      way.angle = std::acos(std::min(1.0, std::abs(with.dot(crossing->tangents[0], crossing->tangents[1]))));
-      const auto index = static_cast<std::size_t>(at - all.begin());
-      for (int half = 0; half < 2; ++half) {
-        if (!is_known(way, with)) ways_.push_back({k, index, at->kind, way, false, false});
-        way.direction = -way.direction;
-      }
-    }
+    for (const ResponsePoint& point : last.response.points) solutions.push_back(with_frequency(point));
+    for (std::size_t e = 0; e < last.response.events.size(); ++e)
+      if (const std::string& kind = last.response.events[e].kind;
+          kind == event_kinds::period_doubling || kind == event_kinds::symmetry_breaking)
+        widen(e, solutions, wider);
+    for (const continuation::Event& event : events)
+      if (std::holds_alternative<BranchPoint>(event.data)) meet(event);
   }
 
-  // Whether the half-branch leaves a branch point of which the ways are known.
-  bool is_known(const HalfBranch& way, const continuation::Corrector& in) const {
-    return std::any_of(ways_.begin(), ways_.end(), [&](const Way& other) {
-      return meets(other, *way.problem, way.x, in) && !other.wider &&
-             in.dot(other.half_branch.direction, way.direction) > same_direction;
+  // The branch of more harmonics that leaves the last known one at an event.
+  void widen(std::size_t e, const std::vector<Vector>& solutions,
+             std::map<std::string, WiderBranchPoints>& wider) {
+    const std::size_t k = known_.size() - 1;
+    const ResponseEvent& event = known_[k].response.events[e];
+    const double omega = event.point.omega;
+    const auto leave_out = [&](const std::string& why) { untraced(k, event.kind, omega, why); };
+    const bool doubles = event.kind == event_kinds::period_doubling;
+    const Harmonics harmonics = without(known_[k].problem->harmonics(),
+                                        doubles ? BrokenSymmetry::period : BrokenSymmetry::mirror_image);
+    if (doubles && known_[k].doublings >= f_.limits.doublings)
+      return leave_out("the period was doubled " + std::to_string(known_[k].doublings) +
+                       (known_[k].doublings == 1 ? " time" : " times") + " already (doublings)");
+    if (harmonics.order > scene::largest_order)
+      return leave_out("it would have harmonics above " + std::to_string(scene::largest_order));
+    auto at = wider.find(event.kind);
+    if (at == wider.end()) {
+      const auto wide = in_harmonics(*known_[k].problem, harmonics, f_.window.lower);
+      if (const auto dof = model::drifting_dof(wide->model(), hbm::parameters_at(*wide, omega)))
+        return leave_out("no spring holds the mean position of " +
+                         model::coordinate_name(wide->model(), *dof));
+      at = wider.emplace(event.kind, WiderBranchPoints(widening(known_[k].problem, wide))).first;
+    }
+    auto found = at->second.locate(solutions, event.after);
+    if (const auto* why = std::get_if<NotWidened>(&found)) return leave_out(words(*why));
+    add_to_agenda(std::get<Junction>(std::move(found)), k, e);
+  }
+
+  // A branch point of the trace of the last known branch, at which others of the same harmonics leave.
+  void meet(const continuation::Event& event) {
+    const std::size_t k = known_.size() - 1;
+    const double omega = event.point.parameter;
+    const auto& all = known_[k].response.events;
+    const auto at = std::find_if(all.begin(), all.end(), [&](const ResponseEvent& other) {
+      return other.kind == event_kinds::branch_point && other.point.omega == omega;
     });
-  }
-
-  static bool meets(const Way& way, const hbm::HbmProblem& problem, const Vector& x,
-                    const continuation::Corrector& in) {
-    if (!(way.half_branch.problem->harmonics() == problem.harmonics())) return false;
-    const Vector apart = way.half_branch.x - x;
-    return std::sqrt(in.dot(apart, apart)) <= same_place * (1 + in.norm_u(x));
-  }
-
-  void follow_ways() {
-    for (; next_ < ways_.size() && f_.control.keep_going(); ++next_) follow(next_);
-  }
-
-  void follow(std::size_t k) {
-    if (ways_[k].followed) return;
-    const std::size_t from = ways_[k].from;
-    const std::string kind = ways_[k].kind;
-    const double omega = ways_[k].half_branch.x[ways_[k].half_branch.x.size() - 1];
-    if (is_full()) {
-      untraced(from, kind, omega, limit_reported());
-      return;
-    }
-    ways_[k].followed = true;
-    const auto problem = ways_[k].half_branch.problem;
+    if (at == all.end()) return;  // beyond the end of the branch
+    if (event.nonsmooth) return untraced(k, at->kind, omega, "pieces of the laws of contact meet there");
+    if (!event.located || std::get<BranchPoint>(event.data).type == BranchPoint::Type::multiple)
+      return untraced(k, at->kind, omega, several_cross);
+    const auto& problem = known_[k].problem;
     continuation::Counts counts;
-    continuation::Corrector with(*problem, hbm::parameters_at(*problem, omega), model::frequency, {}, counts);
-    const auto entry = enter(ways_[k].half_branch, with);
-    if (!entry) {
-      untraced(from, kind, omega, "no solution was found on it next to the branch point");
-      return;
+    const continuation::Corrector in(*problem, hbm::parameters_at(*problem, omega), model::frequency, {},
+                                     counts);
+    if (agenda_.index_of(problem, event, in) < agenda_.points.size()) return;
+    Junction met = Agenda::met(problem, event);
+    for (std::size_t along = 0; along < 2; ++along) met.half_branches[along].branch = static_cast<int>(k);
+    add_to_agenda(std::move(met), k, static_cast<std::size_t>(at - all.begin()));
+  }
+
+  void follow_half_branches() {
+    while (f_.control.keep_going()) {
+      const auto way = agenda_.next();
+      if (!way) return;
+      follow(*way);
     }
-    const Eigen::Index n = entry->v.size() - 1;
-    if (!(entry->v[n] >= f_.window.lower && entry->v[n] <= f_.window.upper)) {
-      untraced(from, kind, omega, "it leaves the window at once");
-      return;
-    }
+  }
+
+  void follow(const Agenda::Place& way) {
+    const Junction leaves = agenda_.points[way.point];
+    const std::size_t from = branch_of(leaves);
+    const std::string kind = left_at(leaves).kind;
+    const double omega = leaves.parameter;
+    if (is_full()) return untraced(leaves, limit_reported());
+    const auto problem = std::static_pointer_cast<const hbm::HbmProblem>(leaves.problem);
+    const Vector p = hbm::parameters_at(*problem, omega);
+    continuation::Counts counts;
+    continuation::Corrector with(*problem, p, model::frequency, {}, counts);
+    const auto entry = agenda_.enter(way, with, f_.window.lower, f_.window.upper);
+    if (!entry) return untraced(leaves, agenda_.at(way).untraced);
+    agenda_.at(way).branch = static_cast<int>(known_.size());
     Run run = begin(problem);
-    const Vector& x = ways_[k].half_branch.x;
+    Vector x(leaves.u.size() + 1);
+    x << leaves.u, omega;
     with.move_to(x, continuation::Needs::jacobian);
-    const Vector u = x.head(n), p = hbm::parameters_at(*problem, omega);
     run.course.points.emplace_back(
-        -entry->step, run.observer->observe({u, p, ways_[k].half_branch.direction, 0, with.evaluator(),
-                                             with.factors(), omega, with.scratch()},
+        -entry->step, run.observer->observe({leaves.u, p, leaves.half_branches[way.half].direction, 0,
+                                             with.evaluator(), with.factors(), omega, with.scratch()},
                                             PointCondition::branch_point));
     set_apart(event_kinds::branch_point, run.course.points.front().second);
-    estimate_as_at(ways_[k], run.course.points.front().second);
-    continuation::Start start{entry->v.head(n), hbm::parameters_at(*problem, entry->v[n]), model::frequency,
-                              1, entry->tangent};
-    trace(start, entry->step, run);
+    estimate_as_at(leaves, run.course.points.front().second);
+    trace(continuation::start_at(*entry, p, model::frequency), entry->step, run);
     ResponseBranch& response = run.known.response;
     add(counts, response.solver);
     run.known.doublings = known_[from].doublings + (kind == event_kinds::period_doubling ? 1 : 0);
     response.parent = static_cast<int>(known_.size() - from);
-    response.leaves = {kind, ways_[k].event, omega};
+    response.leaves = {kind, static_cast<std::size_t>(leaves.event), omega};
     if (kind == event_kinds::symmetry_breaking || known_[from].response.symmetry == Symmetry::mirror_pair)
       response.symmetry = Symmetry::mirror_pair;
     add_known(std::move(run), omega);
@@ -251,8 +236,8 @@ class AllBranches {
 
   // The equations are singular at a branch point. For fewer harmonics, those of the branch that is left
   // there, they are not.
-  void estimate_as_at(const Way& way, ResponsePoint& point) const {
-    const ResponsePoint& event = known_[way.from].response.events[way.event].point;
+  void estimate_as_at(const Junction& where, ResponsePoint& point) const {
+    const ResponsePoint& event = left_at(where).point;
     point.truncation_estimate = event.truncation_estimate;
     point.truncation_change = event.truncation_change;
     point.truncation_flagged = event.truncation_flagged;
@@ -297,26 +282,22 @@ class AllBranches {
     const hbm::HbmProblem& problem = *run.known.problem;
     continuation::Options options = frequency_options(f_.window, f_.steps, f_.control);
     options.step.initial = step;
-    continuation::Tracer tracer(run.known.problem, start, options, run.monitors, record);
     continuation::Counts counts;
     const continuation::Corrector in(problem, start.p, model::frequency, {}, counts);
     const auto possible = fewer(problem, start.u);
-    std::size_t seen = 0;
-    const auto look = [&] {
-      const auto& events = tracer.branch().events;
-      for (; seen < events.size() && !run.end; ++seen) run.end = end_at(problem, events[seen], in, possible);
-    };
-    while (!run.end && tracer.step()) look();
-    look();
-    continuation::Branch traced = tracer.take();
+    continuation::Branch traced = continuation::trace_until(
+        run.known.problem, start, options, run.monitors, record, [&](const continuation::Event& event) {
+          run.end = end_at(run.known.problem, event, in, possible);
+          return run.end.has_value();
+        });
     add(traced, run.known.response.solver);
     run.events = std::move(traced.events);
     run.stop = std::move(traced.stop);
     if (!run.end) return;
     run.course.end_at(run.end->arclength, near_end * (1 + in.norm_u(run.end->x)));
     ResponsePoint& last = run.course.points.back().second;
-    if (run.end->way && last.omega == run.end->x[run.end->x.size() - 1])
-      estimate_as_at(ways_[*run.end->way], last);
+    if (run.end->point && last.omega == run.end->x[run.end->x.size() - 1])
+      estimate_as_at(agenda_.points[*run.end->point], last);
   }
 
   // from: where it begins.
@@ -400,28 +381,26 @@ class AllBranches {
     }
     run.known.response.isolated = true;
     add_known(std::move(run), omega);
-    follow_ways();
+    follow_half_branches();
   }
 
   // Whether the branch point that a trace has met is its end.
-  std::optional<End> end_at(const hbm::HbmProblem& problem, const continuation::Event& event,
-                            const continuation::Corrector& in, const std::vector<Harmonics>& possible) {
-    const auto* crossing = std::get_if<BranchPoint>(&event.data);
-    if (!crossing || !event.located || event.nonsmooth) return {};
-    const Vector x = with_frequency(event.point.u, event.point.parameter);
-    End end{event.point.arclength, x, crossing->tangents.front()};
-    for (std::size_t i = 0; i < ways_.size(); ++i) {
-      Way& other = ways_[i];
-      if (!meets(other, problem, x, in)) continue;
-      if (!other.wider && in.dot(other.half_branch.direction, -end.tangent) < same_direction) continue;
-      other.followed = true;
-      end.way = i;
-      end.message = "reached the " + event_kinds::words_of(other.kind) + " at " +
-                    frequency(event.point.parameter) + " of a branch that is known";
+  std::optional<End> end_at(const std::shared_ptr<const hbm::HbmProblem>& problem,
+                            const continuation::Event& event, const continuation::Corrector& in,
+                            const std::vector<Harmonics>& possible) {
+    if (!event.located || event.nonsmooth) return {};
+    Vector x(event.point.u.size() + 1);
+    x << event.point.u, event.point.parameter;
+    End end{event.point.arclength, std::move(x)};
+    if (const auto way = agenda_.arrival(problem, event, in)) {
+      agenda_.at(*way).branch = static_cast<int>(known_.size());
+      end.point = way->point;
+      end.message = "reached the " + event_kinds::words_of(left_at(agenda_.points[way->point]).kind) +
+                    " at " + frequency(event.point.parameter) + " of a branch that is known";
       return end;
     }
     for (const Harmonics& fewer : possible)
-      if (within(problem, event.point.u, fewer)) {
+      if (within(*problem, event.point.u, fewer)) {
         end.message = "reached, at " + frequency(event.point.parameter) + ", a branch of " +
                       (fewer.odd ? "antisymmetric motions" : "motions of half the period") +
                       " that is not among those traced";
@@ -465,8 +444,7 @@ class AllBranches {
 
   const BranchOptions& f_;
   std::vector<Known> known_;
-  std::vector<Way> ways_;
-  std::size_t next_ = 0;  // of ways_
+  Agenda agenda_{{}, have_same_harmonics};
 };
 
 }  // namespace

@@ -84,9 +84,21 @@ TEST_CASE("a diagram refuses depths and numbers of branches that make none, and 
   Options unkept = window(-1, 1);
   unkept.keep_points = false;
   CHECK_THROWS_AS(begin(unkept, {}), std::invalid_argument);
-  CHECK_THROWS_AS(begin(window(-1, 1), {.depth = -1}), std::invalid_argument);
-  CHECK_THROWS_AS(begin(window(-1, 1), {.branches = 0}), std::invalid_argument);
-  CHECK_THROWS_AS(begin(window(-1, 1), {.same_place = 0}), std::invalid_argument);
+  const auto says = [&](const DiagramOptions& diagram, const std::string& message) {
+    CHECK_THROWS_WITH(begin(window(-1, 1), diagram), message);
+  };
+  says({.depth = -1}, "the depth of a diagram is -1, must be >= 0");
+  says({.branches = 0}, "the maximum number of branches of a diagram is 0, must be >= 1");
+  says({.same_place = 0}, "same_place of a diagram is 0, must be > 0");
+  says({.same_direction = 1}, "same_direction of a diagram is 1, must be between 0 and 1");
+  says({.entry = {.shortest = 0}}, "entry.shortest of a diagram is 0, must be > 0");
+  says({.entry = {.longest = 1e-7}}, "entry.longest of a diagram is 1e-07, must be >= entry.shortest");
+  says({.entry = {.reduction = 1}}, "entry.reduction of a diagram is 1, must be between 0 and 1");
+  says({.entry = {.error = -1}}, "entry.error of a diagram is -1, must be between 0 and 1");
+  says({.entry = {.turn = 2}}, "entry.turn of a diagram is 2, must be between 0 and 1");
+  says({.nearby = {.segment = 0}}, "nearby.segment of a diagram is 0, must be between 0 and 1");
+  says({.nearby = {.same_point = 0}}, "nearby.same_point of a diagram is 0, must be between 0 and 1");
+  says({.oblique_probes = -1}, "oblique_probes of a diagram is -1, must be >= 0");
 }
 
 TEST_CASE("a branch of a diagram is interpolated before its origin as well as beyond") {

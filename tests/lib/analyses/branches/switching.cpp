@@ -5,7 +5,6 @@
 #include "lib/analyses/responses/reference.hpp"
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/analyses/branches/half_branch_entry.hpp>
 #include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/fourier/series.hpp>
 #include <arcslip/results/event_kinds.hpp>
