@@ -26,6 +26,14 @@ void reverse_event(Event& event) {
   }
 }
 
+// In the other direction a range of stability begins at its last point, which then has to say what the first
+// one did where not every point has a spectrum.
+void count_at_ends(Branch& branch) {
+  for (const StabilityRange& range : stability_ranges(branch))
+    if (auto& spectrum = branch.points[range.last].spectrum; !spectrum)
+      spectrum = Spectrum{{}, range.unstable, range.complete, {}};
+}
+
 }  // namespace
 
 Vector joined(const Vector& u, double parameter) {
@@ -44,6 +52,7 @@ void shift(Branch& branch, double arclength) {
 }
 
 void reverse(Branch& branch) {
+  count_at_ends(branch);
   std::reverse(branch.points.begin(), branch.points.end());
   std::reverse(branch.events.begin(), branch.events.end());
   for (Point& point : branch.points) reverse_point(point);

@@ -11,7 +11,8 @@ Vector joined(const Vector& u, double parameter);
 /// A branch point where smooth branches cross.
 bool simple(const Event& event);
 
-/// Reverses the order of points and events and the sign of the arclength.
+/// Reverses the order of points and events and the sign of the arclength. The last points of ranges of
+/// stability have spectra that are counts.
 void reverse(Branch& branch);
 
 /// Adds to the arclength of all points and events.

@@ -28,6 +28,7 @@ Diagram DiagramTracer::run() {
   }
   if (stopped_) incomplete("stopped by the caller");
   diagram_.branch_points = std::move(agenda_.points);
+  for (DiagramBranch& each : diagram_.branches) each.stability = stability_ranges(each.branch);
   return std::move(diagram_);
 }
 

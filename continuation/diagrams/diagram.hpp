@@ -83,7 +83,8 @@ struct DiagramBranch {
   Branch branch;     // branch.stop: how it ended forward; closed: a loop, from its origin to it
   BranchStop begin;  // how it ended backward; equal to `stop` if it was not traced backward
   int depth = 0;
-  int origin = -1;  // index of the branch point; -1: the start
+  int origin = -1;                          // index of the branch point; -1: the start
+  std::vector<StabilityRange> stability{};  // ranges of its points, with Options::stability
 };
 
 struct Diagram {

@@ -27,7 +27,7 @@ std::vector<StabilityRange> stability_ranges(const Branch& branch) {
       ranges.back().last = i;
       ranges.back().complete = ranges.back().complete && spectrum->complete;
     } else {
-      ranges.push_back({i, i, spectrum->unstable, spectrum->complete});
+      ranges.push_back({ranges.empty() ? 0 : i, i, spectrum->unstable, spectrum->complete});
     }
   }
   return ranges;

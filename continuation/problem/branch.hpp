@@ -242,7 +242,7 @@ struct Branch {
 };
 
 /// Points first to last of a branch, which have the same number of unstable eigenvalues. Points without a
-/// spectrum belong to the range before them.
+/// spectrum belong to the range before them, those before all to the first one.
 struct StabilityRange {
   std::size_t first = 0, last = 0;
   int unstable = 0;

@@ -51,3 +51,28 @@ TEST_CASE("a start that fails has no way backward") {
   CHECK(whole.branch.points.empty());
   CHECK(whole.begin.reason == StopReason::start_failed);
 }
+
+TEST_CASE(
+    "the ranges of stability of both directions are those of their points, also where few have a spectrum") {
+  // mu = x^3 - x, x' = mu + x - x^3: unstable between its folds.
+  for (const SpectrumAt spectra : {SpectrumAt::every_point, SpectrumAt::events})
+    for (const double from : {0.0, 0.9}) {
+      Options options = window(-1, 1);
+      options.stability.emplace();
+      options.stability->at = spectra;
+      const WholeBranch whole =
+          trace_both(cusp(), {Vector{{from}}, Vector{{from * from * from - from, 1.0}}, 0, 1}, options,
+                     {fold_monitor()});
+      const auto ranges = stability_ranges(whole.branch);
+      REQUIRE(ranges.size() == 3);
+      CHECK(ranges.front().first == 0);
+      CHECK(ranges.back().last == whole.branch.points.size() - 1);
+      for (const StabilityRange& range : ranges) {
+        CHECK(range.complete);
+        for (std::size_t i = range.first; i <= range.last; ++i) {
+          CAPTURE(i, whole.branch.points[i].u[0]);
+          CHECK(range.unstable == (std::abs(whole.branch.points[i].u[0]) < 1 / std::sqrt(3.0) ? 1 : 0));
+        }
+      }
+    }
+}

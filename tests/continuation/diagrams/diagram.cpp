@@ -35,6 +35,30 @@ TEST_CASE("the pitchfork's diagram is the line u = 0 and one parabola, from eith
   }
 }
 
+TEST_CASE("the branches of a pitchfork of u' = l u - u^3 are stable but for u = 0 at l > 0") {
+  for (const SpectrumAt spectra : {SpectrumAt::every_point, SpectrumAt::events})
+    for (const Start& start : {at(0, -0.93), at(0, 0.8, -1), at(0.6, 0.36, -1)}) {
+      Options options = window(-1, 1);
+      options.stability.emplace();
+      options.stability->at = spectra;
+      const Diagram diagram = trace_diagram(pitchfork(), start, options, {.depth = 1});
+      REQUIRE(diagram.branches.size() == 2);
+      for (const DiagramBranch& each : diagram.branches) {
+        const auto& points = each.branch.points;
+        const bool is_line = std::abs(points.front().u[0]) < 1e-6;
+        REQUIRE(each.stability.size() == (is_line ? 2 : 1));
+        CHECK(each.stability.front().first == 0);
+        CHECK(each.stability.back().last == points.size() - 1);
+        for (const StabilityRange& range : each.stability)
+          for (std::size_t i = range.first; i <= range.last; ++i)
+            if (std::abs(points[i].parameter) > 1e-9)  // not the branch point itself
+              CHECK(range.unstable == (is_line && points[i].parameter > 0 ? 1 : 0));
+      }
+    }
+  const Diagram without = trace_diagram(pitchfork(), at(0, -0.93), window(-1, 1), {.depth = 1});
+  for (const DiagramBranch& each : without.branches) CHECK(each.stability.empty());
+}
+
 TEST_CASE("begun on the parabola, the pitchfork's diagram is the same") {
   const Diagram diagram = trace_diagram(pitchfork(), at(0.9, 0.81, -1), window(-1, 1), {.depth = 1});
   CHECK(diagram.complete);
