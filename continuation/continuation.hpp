@@ -1,8 +1,10 @@
 #pragma once
 // Branches of F(u, p) = 0: everything a program needs to trace them.
 
+#include <arcslip/continuation/diagrams/agenda.hpp>
 #include <arcslip/continuation/diagrams/deflation.hpp>
 #include <arcslip/continuation/diagrams/diagram.hpp>
+#include <arcslip/continuation/diagrams/widening.hpp>
 #include <arcslip/continuation/events/hopf.hpp>
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/linear/linear_solvers.hpp>

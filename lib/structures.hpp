@@ -19,6 +19,7 @@
 #include <arcslip/analyses/responses/responses_at.hpp>
 #include <arcslip/analyses/responses/shooting_response.hpp>
 #include <arcslip/continuation.hpp>
+#include <arcslip/diagrams/output.hpp>
 #include <arcslip/ensemble/ensemble.hpp>
 #include <arcslip/figures/layout.hpp>
 #include <arcslip/hbm/problem.hpp>

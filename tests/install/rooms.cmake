@@ -50,13 +50,14 @@ set(studies/presentation control results scene laws model observables analyses/m
 set(studies control results scene scene/keys laws/memoryless laws/hysteresis laws/contact stability observables
     analyses/branches analyses/responses analyses/curves analyses/modes_and_time studies/presentation studies)
 set(ensemble control results sampling scene scene/keys scene/format studies ensemble)
+set(diagrams ${continuation} control results diagrams)
 set(figures results figures)
 set(output control results figures output)
 set(report results sampling scene figures report)
 set(structures ${continuation} control results sampling scene scene/keys scene/files scene/format fourier formula laws laws/memoryless
     laws/hysteresis laws/contact structure model hbm/linear hbm time/equation time/event_driven time/newmark
     time/periodic stability observables analyses/branches analyses/responses analyses/curves analyses/modes_and_time
-    studies/presentation studies ensemble figures output report)
+    studies/presentation studies ensemble diagrams figures output report)
 
 set(optimize/nlopt ${structures} optimize/nlopt)
 set(optimize/peaks ${structures} optimize/nlopt optimize/peaks)

@@ -1,0 +1,88 @@
+#include <arcslip/diagrams/parts.hpp>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace arcslip::diagrams {
+namespace {
+
+using continuation::Branch;
+using continuation::Point;
+using results::EventKind;
+using results::Shape;
+
+// In the order of the alternatives of EventData; the first one of events without data.
+constexpr std::array<EventKind, std::variant_size_v<continuation::EventData>> kinds = {
+    {{"event", "event", {Shape::star, 0.9, 1.5}},
+     {"fold", "fold", {Shape::square, 1.2, 1.5}},
+     {"branch_point", "branch point", {Shape::filled_circle, 0.8}},
+     {"hopf", "Hopf point", {Shape::circle, 1, 1.5}},
+     {"kink", "kink", {Shape::cross, 0.7, 1}},
+     {"cusp", "cusp", {Shape::filled_diamond, 1.1}},
+     {"bogdanov_takens", "Bogdanov-Takens point", {Shape::triangle, 1, 1.5}},
+     {"generalized_hopf", "generalized Hopf point", {Shape::diamond, 1.1, 1.5}},
+     {"zero_hopf", "zero-Hopf point", {Shape::inverted_triangle, 1, 1.5}},
+     {"double_hopf", "double Hopf point", {Shape::pentagon, 1, 1.5}}}};
+
+}  // namespace
+
+std::vector<BranchPart> parts_of(const Branch& branch) {
+  return {{&branch, nullptr, continuation::stability_ranges(branch)}};
+}
+
+std::vector<BranchPart> parts_of(const continuation::WholeBranch& branch) {
+  return {{&branch.branch, &branch.begin, continuation::stability_ranges(branch.branch)}};
+}
+
+std::vector<BranchPart> parts_of(const continuation::Diagram& diagram) {
+  std::vector<BranchPart> all;
+  for (const continuation::DiagramBranch& each : diagram.branches)
+    all.push_back({&each.branch, &each.begin, each.stability, each.depth, each.origin});
+  return all;
+}
+
+const EventKind& kind_of(const continuation::Event& event) {
+  if (event.data.index() > 0) return kinds[event.data.index()];
+  const auto* const by_name = std::find(kinds.begin(), kinds.end(), event.monitor);
+  return by_name == kinds.end() ? kinds.front() : *by_name;
+}
+
+std::vector<std::string> labels_of(const Branch& branch) {
+  std::vector<std::string> labels;
+  std::map<std::string, int> all, so_far;
+  for (const continuation::Event& event : branch.events) {
+    const EventKind& kind = kind_of(event);
+    labels.push_back(&kind == &kinds.front() ? event.monitor : std::string(kind.words));
+    ++all[labels.back()];
+  }
+  for (std::string& label : labels)
+    if (all[label] > 1) label += " " + std::to_string(++so_far[label]);
+  return labels;
+}
+
+Columns columns_of(const continuation::Problem& problem, int free, std::vector<std::string> names) {
+  const auto parameters = problem.parameters();
+  if (free < 0 || free >= static_cast<int>(parameters.size()))
+    throw std::invalid_argument("the free parameter is " + std::to_string(free) + ", must be from 0 to " +
+                                std::to_string(parameters.size() - 1));
+  const int n = problem.size();
+  if (!names.empty() && static_cast<int>(names.size()) != n)
+    throw std::invalid_argument(std::to_string(names.size()) + " names are given for " + std::to_string(n) +
+                                " unknowns");
+  const continuation::Parameter& parameter = parameters[static_cast<std::size_t>(free)];
+  Columns columns{.parameter = parameter.name, .parameter_unit = parameter.unit, .quantities = {}};
+  if (names.empty() && n > most_unknowns) {
+    columns.quantities.push_back({"norm", "", [](const Point& point) { return point.u.norm(); }});
+    return columns;
+  }
+  for (int i = 0; i < n; ++i)
+    columns.quantities.push_back(
+        {names.empty() ? "u_" + std::to_string(i + 1) : std::move(names[static_cast<std::size_t>(i)]), "",
+         [i](const Point& point) { return point.u[i]; }});
+  return columns;
+}
+
+}  // namespace arcslip::diagrams
