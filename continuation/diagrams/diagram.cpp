@@ -19,33 +19,42 @@ void DiagramTracer::incomplete(const std::string& why) {
 }
 
 Diagram DiagramTracer::run() {
-  first_branch();
-  // Branch points are added meanwhile, those of one depth before those of the next.
-  while (!stopped_) {
-    const auto place = agenda_.next();
-    if (!place || agenda_.points[place->point].depth >= limits_.depth) break;
-    leave(*place);
-  }
+  add_branch_through(start_);
+  follow_half_branches();
+  for (const double at : limits_.searches) search(at);
   if (stopped_) incomplete("stopped by the caller");
   diagram_.branch_points = std::move(agenda_.points);
   for (DiagramBranch& each : diagram_.branches) each.stability = stability_ranges(each.branch);
   return std::move(diagram_);
 }
 
-void DiagramTracer::first_branch() {
-  Branch forward = follow({start_}, 0, 0);
-  with_ = std::make_unique<Corrector>(*problem_, start_.p, free_, options_.newton, counts_,
-                                      options_.linear_solver);
-  DiagramBranch first;
-  first.begin = forward.stop;
+// Branch points are added meanwhile, those of one depth before those of the next.
+void DiagramTracer::follow_half_branches() {
+  while (!stopped_) {
+    const auto place = agenda_.next();
+    if (!place) return;
+    if (agenda_.points[place->point].depth < limits_.depth) leave(*place);
+  }
+}
+
+// The index of the branch through a solution, or -1: there is none, but for the first one, which says why.
+int DiagramTracer::add_branch_through(const Start& from) {
+  const int index = static_cast<int>(diagram_.branches.size());
+  Branch forward = follow({from}, index, 0);
+  if (!with_)
+    with_ = std::make_unique<Corrector>(*problem_, start_.p, free_, options_.newton, counts_,
+                                        options_.linear_solver);
+  DiagramBranch added;
+  added.begin = forward.stop;
   if (forward.points.empty()) {
+    if (index > 0) return -1;
     incomplete(forward.stop.message);
   } else if (forward.stop.reason != StopReason::closed && !stopped_) {
-    Start start = start_;
+    Start start = from;
     start.direction = -start.direction;
     start.tangent = -start.tangent;
-    Branch whole = follow({start}, 0, 0);
-    first.begin = whole.stop;
+    Branch whole = follow({start}, index, 0);
+    added.begin = whole.stop;
     reverse(whole);
     if (!whole.points.empty()) whole.points.pop_back();
     whole.linear_solver = forward.linear_solver;
@@ -53,9 +62,10 @@ void DiagramTracer::first_branch() {
     forward = std::move(whole);
     number(forward);
   }
-  first.branch = std::move(forward);
-  diagram_.branches.push_back(std::move(first));
-  name_events(0);
+  added.branch = std::move(forward);
+  diagram_.branches.push_back(std::move(added));
+  name_events(index);
+  return index;
 }
 
 // Whether a half-branch can be traced; otherwise notes why the diagram is incomplete.
@@ -250,6 +260,13 @@ Diagram trace_diagram(std::shared_ptr<const Problem> problem, const Start& start
   if (given(problem)->initial_state().size() != 0)
     throw std::invalid_argument(
         "a diagram is of a problem without a state: branches that meet have left different ones");
+  for (const double at : diagram.searches)
+    if (!(at >= options.lower && at <= options.upper)) {
+      std::ostringstream text;
+      text << "a search of a diagram is at " << at << ", must be in the window, " << options.lower << " to "
+           << options.upper;
+      throw std::invalid_argument(text.str());
+    }
   check(diagram);
   return DiagramTracer(std::move(problem), start, options, diagram, std::move(monitors), std::move(observer))
       .run();

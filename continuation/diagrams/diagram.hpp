@@ -9,6 +9,10 @@
 // at x + h t, corrected normal to t, with h so small that the correction is a small part of the distance to
 // the other branch. A trace that reaches a branch point on one half-branch leaves it on the opposite one, and
 // both count as traced. So a branch that meets others, or itself, at several points is traced once.
+//
+// Branches that cross none of these are looked for by deflation (deflation.hpp) where
+// DiagramOptions::searches asks for it: from the solutions that the branches have at a parameter, and again
+// with each one that is found, until there is no other.
 
 #include <arcslip/continuation/tracing/tracer.hpp>
 
@@ -47,6 +51,9 @@ struct DiagramOptions {
              // one. Wide, since tangents at arrival are less accurate where branches cross flat
   EntryOptions entry{};
   NearbyOptions nearby{};
+  std::vector<double>
+      searches{};          // values of the free parameter at which other branches are looked for; each
+                           // takes some hundred iterations of Newton's method for every solution there
   int oblique_probes = 8;  // where pieces meet: directions in which they are searched for, besides the
                            // tangents and the parameter, each with two linearizations
 };
@@ -83,7 +90,7 @@ struct DiagramBranch {
   Branch branch;     // branch.stop: how it ended forward; closed: a loop, from its origin to it
   BranchStop begin;  // how it ended backward; equal to `stop` if it was not traced backward
   int depth = 0;
-  int origin = -1;                          // index of the branch point; -1: the start
+  int origin = -1;  // index of the branch point; -1: the start, or a solution that was found by a search
   std::vector<StabilityRange> stability{};  // ranges of its points, with Options::stability
 };
 

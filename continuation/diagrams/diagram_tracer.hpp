@@ -47,7 +47,10 @@ class DiagramTracer {
     std::optional<std::size_t> origin{};  // index of the branch point
   };
 
-  void first_branch();
+  int add_branch_through(const Start& start);
+  void follow_half_branches();
+  void search(double at);
+  std::vector<Vector> solutions_at(double at);
   void leave(const Agenda::Place& place);
   bool may_trace(const Junction& junction, HalfBranch& half);
   double way_from(const Junction& origin, const Branch& branch) const;

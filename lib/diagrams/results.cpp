@@ -89,7 +89,7 @@ struct NormalForm {
   Named operator()(const continuation::Cusp& at) const { return {{"cubic", at.cubic}}; }
   Named operator()(const continuation::BogdanovTakens& at) const { return {{"a", at.a}, {"b", at.b}}; }
   Named operator()(const continuation::GeneralizedHopf& at) const {
-    return {{"lyapunov", at.lyapunov}, {"detuning", at.detuning}};
+    return {{"lyapunov", at.lyapunov}, {"detuning", at.detuning}, {"second_lyapunov", at.second_lyapunov}};
   }
   Named operator()(const continuation::ZeroHopf& at) const {
     return {{"g200", at.g200},           {"g011", at.g011},

@@ -278,3 +278,53 @@ TEST_CASE("where pieces meet, the half-branches next to the one traced are follo
     CHECK(ends[i].second == (i % 2 ? 1 : -1));
   }
 }
+
+TEST_CASE("a search finds the circle that no branch crosses, and both branches of an imperfect pitchfork") {
+  // (u + 2)((u - 1)^2 + l^2 - 1/4) = 0.
+  const auto apart =
+      scalar([](double u, double l) { return (u + 2) * ((u - 1) * (u - 1) + l * l - 0.25); },
+             [](double u, double l) { return (u - 1) * (u - 1) + l * l - 0.25 + 2 * (u + 2) * (u - 1); },
+             [](double u, double l) { return 2 * (u + 2) * l; });
+  CHECK(trace_diagram(apart, at(-2, -1), window(-1, 1)).branches.size() == 1);
+  CHECK(trace_diagram(apart, at(-2, -1), window(-1, 1), {.searches = {0.9}}).branches.size() == 1);
+  const Diagram isola = trace_diagram(apart, at(-2, -1), window(-1, 1), {.searches = {0.1, -0.3}});
+  CHECK(isola.complete);
+  REQUIRE(isola.branches.size() == 2);
+  CHECK(isola.branches[1].branch.stop.reason == StopReason::closed);
+  CHECK(isola.branches[1].origin == -1);
+  CHECK(isola.branches[1].depth == 0);
+  CHECK(largest(isola.branches[1].branch,
+                [](double u, double l) { return (u - 1) * (u - 1) + l * l - 0.25; }) < 1e-9);
+  const Diagram full = trace_diagram(apart, at(-2, -1), window(-1, 1), {.branches = 1, .searches = {0.1}});
+  CHECK(full.message == "reached the maximum number of branches, 1");
+
+  // 0.02 + l u - u^3: the branch at u < 0 has a fold at l = 3 (0.01)^(2/3).
+  const auto imperfect =
+      scalar([](double u, double l) { return 0.02 + l * u - u * u * u; },
+             [](double u, double l) { return l - 3 * u * u; }, [](double u, double) { return u; });
+  const Diagram both =
+      trace_diagram(imperfect, at(0.02, -1), window(-1, 1), {.searches = {0.5, 0.9}}, {fold_monitor()});
+  REQUIRE(both.branches.size() == 2);
+  const std::vector<Event> folds = events_named(both.branches[1].branch, "fold");
+  REQUIRE(folds.size() == 1);
+  CHECK(std::abs(folds[0].point.parameter - 3 * std::pow(0.01, 2.0 / 3)) < 1e-11);
+  CHECK(both.branches[1].begin.reason == StopReason::boundary);
+  CHECK(both.branches[1].branch.stop.reason == StopReason::boundary);
+}
+
+TEST_CASE("a branch that is found by a search is left at its branch points, too") {
+  // (u + 2)(l v - v^3), v = u - 3: the line u = -2, and a pitchfork at u = 3.
+  const auto apart = from_functions(1, {parameter("l", 0)}, [](In u, In p, Out F) {
+    const double v = u[0] - 3, l = p[0];
+    F[0] = (u[0] + 2) * (l * v - v * v * v);
+  });
+  const Diagram diagram = trace_diagram(apart, at(-2, -0.93), window(-1, 1), {.searches = {-0.51}});
+  CHECK(diagram.complete);
+  REQUIRE(diagram.branches.size() == 3);
+  CHECK(diagram.branches[1].origin == -1);
+  CHECK(diagram.branches[2].origin == 0);
+  REQUIRE(diagram.branch_points.size() == 1);
+  CHECK(all_traced(diagram.branch_points[0]));
+  CHECK(std::abs(diagram.branch_points[0].parameter) < 1e-9);
+  CHECK(largest(diagram.branches[2].branch, [](double u, double l) { return (u - 3) * (u - 3) - l; }) < 1e-8);
+}

@@ -98,6 +98,7 @@ TEST_CASE("a diagram refuses depths and numbers of branches that make none, and 
   says({.entry = {.turn = 2}}, "entry.turn of a diagram is 2, must be between 0 and 1");
   says({.nearby = {.segment = 0}}, "nearby.segment of a diagram is 0, must be between 0 and 1");
   says({.nearby = {.same_point = 0}}, "nearby.same_point of a diagram is 0, must be between 0 and 1");
+  says({.searches = {2}}, "a search of a diagram is at 2, must be in the window, -1 to 1");
   says({.oblique_probes = -1}, "oblique_probes of a diagram is -1, must be >= 0");
 }
 
