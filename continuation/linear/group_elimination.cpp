@@ -43,7 +43,6 @@ void GroupElimination::resize(Eigen::Index n, Eigen::Index m) {
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index g = 0; g < others_.cols(); ++g)
       others_(i, g) = of_[static_cast<std::size_t>(i)] == g ? 0 : 1;
-  Eigen::Index widest = 0;
   for (Group& group : groups_) {
     const auto size = group.all.size();
     group.eliminated.reserve(size);
@@ -54,9 +53,7 @@ void GroupElimination::resize(Eigen::Index n, Eigen::Index m) {
     group.order.resize(size);
     group.work.resize(size);
     group.y.resize(static_cast<Eigen::Index>(size));
-    widest = std::max(widest, static_cast<Eigen::Index>(size));
   }
-  product_.resize((n + m) * (widest + m));
 }
 
 bool GroupElimination::eliminate(const Matrix& J, const Borders& borders) {
@@ -150,12 +147,15 @@ void GroupElimination::form(const Matrix& J, const Borders& borders, Eigen::Ref<
   for (const Group& group : groups_) {
     if (group.size() == 0) continue;
     const Eigen::Index width = group.width();
-    lapack::transposed_product(static_cast<int>(rows), static_cast<int>(width + m_),
-                               static_cast<int>(group.size()), group.B.data(), group.X.data(),
-                               product_.data());
-    const ConstMatrixMap product(product_.data(), rows, width + m_);
-    S.middleCols(group.first_kept, width) -= product.leftCols(width);
-    S.rightCols(m_) -= product.rightCols(m_);
+    const auto size = static_cast<int>(group.size()), stride = static_cast<int>(S.outerStride());
+    const lapack::Columns B{group.B.data(), size, static_cast<int>(rows), size};
+    const auto subtract = [&](Eigen::Index from, Eigen::Index columns, Eigen::Index to) {
+      if (columns == 0) return;
+      lapack::multiply(true, -1, B, {group.X.data() + from * size, size, static_cast<int>(columns), size}, 1,
+                       S.data() + to * S.outerStride(), stride);
+    };
+    subtract(0, width, group.first_kept);
+    subtract(width, m_, n);
   }
 }
 

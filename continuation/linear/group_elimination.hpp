@@ -62,10 +62,9 @@ class GroupElimination {
   std::vector<int> of_;  // the group of each unknown
   std::vector<Group> groups_;
   std::vector<int> kept_;
-  Matrix others_;           // n x groups: 1 for an unknown of another group, 0 for one of this group
-  Vector outside_;          // of each row of J, the sum of the magnitudes in columns of other groups
-  mutable Vector product_;  // B_g X_g
-  Eigen::Index m_ = -1;     // borders
+  Matrix others_;        // n x groups: 1 for an unknown of another group, 0 for one of this group
+  Vector outside_;       // of each row of J, the sum of the magnitudes in columns of other groups
+  Eigen::Index m_ = -1;  // borders
   int sign_ = 1;
 };
 
