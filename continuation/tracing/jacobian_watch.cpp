@@ -52,16 +52,8 @@ void JacobianWatch::look_at(const Vector& v) {
                                "): tangents and events are equally wrong, and the branch may end early");
 }
 
-// In the state that the point was computed from: in that which it left, the law of a state may bend right
-// there, as between loading and unloading.
-void JacobianWatch::look_at_last_point() {
-  s_.accepted.swap(s_.previous);
-  look_at(s_.here.v);
-  s_.accepted.swap(s_.previous);
-}
-
 void JacobianWatch::check_some() {
-  if (is_due(s_.branch.counts.points)) look_at_last_point();
+  if (is_due(s_.branch.counts.points)) look_at(s_.here.v);
 }
 
 // Far beyond, differences are of what F is there, if it is anything.
@@ -75,16 +67,13 @@ bool JacobianWatch::is_near(const Vector& v, const Vector& from) const {
 
 void JacobianWatch::suspect(const Vector& v) {
   if (!is_due(++s_.slow)) return;
-  look_at_last_point();
+  look_at(s_.here.v);
   if (is_near(v, s_.here.v)) look_at(v);
 }
 
 std::string JacobianWatch::doubt(const Vector& v, const Vector& guess) {
-  if (guess == s_.here.v)
-    look_at_last_point();
-  else
-    look_at(guess);
-  if (v != guess && is_near(v, guess)) look_at(v);
+  look_at(guess);
+  if (is_near(v, guess)) look_at(v);
   return s_.jacobian_doubt.empty() ? std::string() : "; " + s_.jacobian_doubt;
 }
 

@@ -34,7 +34,6 @@ class JacobianWatch {
   bool can_continue() const;
 
  private:
-  void look_at_last_point();
   bool is_near(const Vector& v, const Vector& from) const;
 
   const Problem& problem_;

@@ -212,7 +212,6 @@ void fields_of_state(auto& visit, auto& x) {
   }
   newer_field(visit, "curve_error", x.curve_error), newer_field(visit, "expected", x.expected);
   newer_field(visit, "transverse", x.transverse), newer_field(visit, "accepted", x.accepted);
-  newer_field(visit, "previous", x.previous);
 }
 
 template <class Visit>

@@ -33,8 +33,8 @@ struct State {
   Vector p;          // all parameters; the free one at its start value
   CurvePoint start;  // the first point
   CurvePoint here, before;
-  Vector accepted, previous;  // state of the problem that `here` left, and that `here` was computed from
-  bool has_before = false;    // so that the cubic predictor applies
+  Vector accepted;          // state of the problem that `here` left
+  bool has_before = false;  // so that the cubic predictor applies
   bool begun = false, ended = false;
   double step = 0, last_step = 0;  // to try next; from `before` to `here`
   double curve_error = 0;          // of the curve there, relative to its tolerance

@@ -373,7 +373,6 @@ bool Tracer::Impl::accept() {
   else
     s_.before = trial_.corners.back().beyond;
   std::swap(s_.here, place);
-  s_.previous = s_.accepted;
   rejected_before_ = s_.branch.counts.rejected_steps;
   jacobian_.check_some();
   const bool is_stopped = !keep_going || !record_.show_last_point(is_there);
@@ -389,7 +388,6 @@ bool Tracer::Impl::accept_state() {
     return end(StopReason::not_evaluated, s_.here.v[n_], 0,
                "the state that the point at " + text(s_.here.v[n_]) + " leaves could not be computed" +
                    because(main_.failure()));
-  s_.previous = s_.accepted;
   s_.accepted = next_state_;
   main_.set_state(s_.accepted);
   events_.set_state(s_.accepted);

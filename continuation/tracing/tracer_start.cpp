@@ -28,7 +28,7 @@ Options within(const Parameter& free, Options options) {
 
 State before_the_start(const Problem& problem, const Start& start) {
   State state;
-  state.accepted = state.previous = start.state.size() != 0 ? start.state : problem.initial_state();
+  state.accepted = start.state.size() != 0 ? start.state : problem.initial_state();
   state.free = start.free.in(problem);
   state.direction = start.direction;
   state.p = start.p;

@@ -268,7 +268,7 @@ TEST_CASE("traces of one problem, in turn, in threads and in both directions, ha
   CHECK_THAT(w, Catch::Matchers::WithinAbs(3, 1e-12));  // the other end, in a state of its own
 }
 
-TEST_CASE("a lagged factor is that of the point before") {
+TEST_CASE("a lagged factor is that of the point before, for points and for events") {
   StateFunctions lagged;  // u = (1 + 0.2 u_before) p
   lagged.initial = Vector::Zero(1);
   lagged.functions = [](AcceptedState before) {
@@ -279,12 +279,21 @@ TEST_CASE("a lagged factor is that of the point before") {
     return f;
   };
   lagged.next = [](In u, In, In, Out next) { next = u; };
-  const Branch branch = trace(from_functions(lagged), at(0, 0), window(0, 1));
+  const auto level = [](const char* name, double u) {
+    return Monitor{.name = name, .value = [u](const Accepted& now) { return now.u[0] - u; }};
+  };
+  const Branch branch =
+      trace(from_functions(lagged), at(0, 0), window(0, 1), {level("low", 0.3), level("high", 0.8)});
   REQUIRE(branch.stop.reason == StopReason::boundary);
   double before = 0;
   for (const Point& point : branch.points) {
     CHECK_THAT(point.u[0], Catch::Matchers::WithinAbs((1 + 0.2 * before) * point.parameter, 1e-14));
     before = point.u[0];
+  }
+  REQUIRE(branch.events.size() == 2);  // trials from the point before them
+  for (const Event& event : branch.events) {
+    const double lag = branch.points[event.after].u[0];
+    CHECK_THAT(event.point.u[0], Catch::Matchers::WithinAbs((1 + 0.2 * lag) * event.point.parameter, 1e-14));
   }
 }
 
