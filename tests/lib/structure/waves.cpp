@@ -203,15 +203,21 @@ TEST_CASE("the sectors of a closed ring have stiffnesses of their own") {
 
 TEST_CASE("a sector that is reduced in a wave has the dynamic stiffness and the loads of the whole one") {
   const Disc disc;
+  using scene::ReductionMethod;
+  const auto method =
+      GENERATE(ReductionMethod::krylov, ReductionMethod::craig_bampton, ReductionMethod::rubin);
   for (const bool of_rotor : {false, true})
     for (const std::vector<int>& kept : {std::vector<int>{disc.size - 1}, {disc.size - 1, 0, 14, 12}})
       for (const auto& [diameter, count] : {std::pair(0, 8), {1, 8}, {2, 8}, {4, 8}, {3, 7}}) {
-        CAPTURE(of_rotor, kept.size(), diameter, count);
+        CAPTURE(method, of_rotor, kept.size(), diameter, count);
+        if (method != ReductionMethod::krylov && (of_rotor || diameter != 1)) continue;
         const scene::Matrices sector = disc.sector(of_rotor);
         const structure::Wave wave{diameter, count};
         const MatrixXd f = loads_of(disc.size);
         const double speed = of_rotor ? 0.8 : 0;
-        const structure::Purpose purpose{1.5, speed, f};
+        structure::Purpose purpose{1.5, speed, f};
+        purpose.method = method;
+        purpose.modes = disc.size;  // all of them
         const structure::WaveStructure whole = structure::whole_wave(sector, wave, disc.order(kept), f),
                                        reduced = structure::reduce_wave(sector, wave, kept, purpose);
         const auto b = static_cast<Eigen::Index>(kept.size());
