@@ -311,7 +311,7 @@ std::optional<LocatedEvent> EventLocator::locate(std::size_t monitor, const Curv
     const double negligible = value.negligible(tolerance), f = value(s);
     return std::abs(f) <= negligible ? 0 : f;
   };
-  const bool by_quantity = begin == 0 && monitors_[monitor].quantity;
+  const bool by_quantity = problem_->smooth() && begin == 0 && monitors_[monitor].quantity;
   const double first = by_quantity ? first_share(monitor, from, to) : at_begin / (at_begin - b);
   const Root root = find_root(at, begin, at_begin, 1, b, tolerance, first);
   if (value.failed()) return nearer_end(monitor, from, to);

@@ -151,7 +151,9 @@ TEST_CASE(
   const Optimum found = optimize::optimum(s, {{{"m2.value", 0, 1}}, 0.5, 1.5});
   CAPTURE(found.stop.message);
   REQUIRE(found.status == observables::Status::complete);
-  CHECK(found.design == std::vector<double>{0});
+  REQUIRE(found.design.size() == 1);
+  CHECK(found.design[0] >= 0);
+  CHECK(found.design[0] < 1e-12);
   CHECK(found.amplitude == Approx(peak(0)).epsilon(1e-9));
   REQUIRE(found.certificate);
   REQUIRE(found.certificate->ranges.size() == 1);
