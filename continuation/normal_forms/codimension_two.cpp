@@ -3,7 +3,6 @@
 #include <arcslip/continuation/linear/shifted_solver.hpp>
 #include <arcslip/continuation/normal_forms/hopf_form.hpp>
 #include <arcslip/continuation/normal_forms/propagated_error.hpp>
-#include <arcslip/continuation/normal_forms/second_lyapunov.hpp>
 #include <arcslip/continuation/normal_forms/steady_form.hpp>
 
 #include <cmath>

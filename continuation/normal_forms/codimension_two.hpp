@@ -21,6 +21,7 @@
 // (J - mu)^inv b is the solution x of the bordered system with <p, x> = 0. Coefficients are not known where F
 // has no derivatives within its piece, or an eigenvalue is not apart from the others. Not installed.
 
+#include <arcslip/continuation/linear/shifted_solver.hpp>
 #include <arcslip/continuation/normal_forms/directional_derivatives.hpp>
 #include <arcslip/continuation/problem/branch.hpp>
 
@@ -30,6 +31,9 @@ namespace arcslip::continuation {
 Cusp cusp_form(Evaluator& at, const PlaceOfForms& place, const Vector& right, const Vector& left);
 BogdanovTakens bogdanov_takens_form(Evaluator& at, const PlaceOfForms& place);
 GeneralizedHopf generalized_hopf_form(Evaluator& at, const PlaceOfForms& place, double frequency);
+/// l2 of the pair i omega, with its vectors. Not known where J consists of differences or is an operator, or
+/// F has no derivatives within its piece.
+Coefficient second_lyapunov(Evaluator& at, const PlaceOfForms& place, const Eigenpair& pair);
 ZeroHopf zero_hopf_form(Evaluator& at, const PlaceOfForms& place, double frequency);
 DoubleHopf double_hopf_form(Evaluator& at, const PlaceOfForms& place, double frequency,
                             double other_frequency);

@@ -1,5 +1,6 @@
 #pragma once
-// The rows of large matrices that are linked to those kept, b, and the others among them, i.
+// The rows of large matrices that are linked to those kept, b, and the others among them, i; matrices as
+// symmetric and skew-symmetric ones.
 
 #include <arcslip/scene/matrices.hpp>
 
@@ -32,5 +33,17 @@ struct Blocks {
 Sparse whole(const scene::SparseMatrix& A, const Partition& parts);
 
 Blocks blocks(const scene::SparseMatrix& A, const Partition& parts);
+
+/// With the symmetric parts of C and K.
+scene::Matrices symmetric_parts(scene::Matrices matrices);
+
+/// A skew-symmetric matrix: with the velocity or the displacement, times the speed of rotation or not.
+struct Skew {
+  bool of_velocity, by_speed;
+  scene::SparseMatrix A;
+};
+
+/// G, N, and the skew-symmetric parts of C and K.
+std::vector<Skew> skew_parts(const scene::Matrices& of);
 
 }  // namespace arcslip::structure

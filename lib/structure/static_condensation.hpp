@@ -8,7 +8,6 @@
 #include <arcslip/structure/krylov_space.hpp>
 #include <arcslip/structure/projected.hpp>
 #include <arcslip/structure/reduction.hpp>
-#include <arcslip/structure/symmetry.hpp>
 
 #include <optional>
 #include <string>

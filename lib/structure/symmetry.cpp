@@ -1,4 +1,4 @@
-#include <arcslip/structure/symmetry.hpp>
+#include <arcslip/structure/blocks.hpp>
 
 #include <cstddef>
 #include <memory>
