@@ -312,6 +312,14 @@ TEST_CASE("a search finds the circle that no branch crosses, and both branches o
   CHECK(both.branches[1].branch.stop.reason == StopReason::boundary);
 }
 
+TEST_CASE("what a search finds around a fold between two points is not another branch") {
+  const auto parabola = scalar([](double u, double l) { return 1 - l - u * u; },
+                               [](double u, double) { return -2 * u; }, [](double, double) { return -1.0; });
+  const Diagram diagram =
+      trace_diagram(parabola, at(-1.4, -0.96), window(-1, 2), {.searches = {1 - 1e-7, 1 - 1e-5, 0.3}});
+  CHECK(diagram.branches.size() == 1);
+}
+
 TEST_CASE("a branch that is found by a search is left at its branch points, too") {
   // (u + 2)(l v - v^3), v = u - 3: the line u = -2, and a pitchfork at u = 3.
   const auto apart = from_functions(1, {parameter("l", 0)}, [](In u, In p, Out F) {
