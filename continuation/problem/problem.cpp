@@ -2,7 +2,9 @@
 
 #include <arcslip/continuation/problem/linear_solver.hpp>
 
+#include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace arcslip::continuation {
 
@@ -63,6 +65,27 @@ Vector parameter_values(const Problem& problem) {
   Vector values(static_cast<Eigen::Index>(all.size()));
   for (std::size_t k = 0; k < all.size(); ++k) values[static_cast<Eigen::Index>(k)] = all[k].value;
   return values;
+}
+
+Vector proposed_scales(std::span<const Vector> solutions) {
+  if (solutions.empty()) throw std::invalid_argument("scales follow from one solution at least");
+  Vector scales = Vector::Zero(solutions.front().size());
+  for (const Vector& u : solutions) {
+    if (u.size() != scales.size())
+      throw std::invalid_argument("solutions of " + std::to_string(scales.size()) + " and of " +
+                                  std::to_string(u.size()) + " unknowns have no scales in common");
+    if (!u.allFinite())
+      throw std::invalid_argument("a solution that scales are to follow from is not finite");
+    scales = scales.cwiseMax(u.cwiseAbs());
+  }
+  double logarithms = 0;
+  int others = 0;
+  for (const double scale : scales)
+    if (scale > 0) logarithms += std::log(scale), ++others;
+  const double mean = others > 0 ? std::exp(logarithms / others) : 1;
+  for (double& scale : scales)
+    if (!(scale > 0)) scale = mean;
+  return scales;
 }
 
 }  // namespace arcslip::continuation

@@ -69,3 +69,57 @@ TEST_CASE(
       CHECK(std::abs(t[0] / t[1] - 0.75) < 1e-8);
     }
 }
+
+TEST_CASE("scales proposed from the first points make unknowns of any size exact") {
+  // u_0 = 1e-11 (1 + p)^(1/2), u_1 = 1e9 / (2 + p), u_2 = p u_0 1e11, u_3 = 0.
+  const auto problem = [](Vector scales) {
+    Functions f{.size = 4, .parameters = {{"p", ""}}};
+    f.residual = [](In u, In p, Out F) {
+      F[0] = 1e22 * u[0] * u[0] - 1 - p[0];
+      F[1] = 1e-9 * u[1] * (2 + p[0]) - 1;
+      F[2] = u[2] - 1e11 * p[0] * u[0];
+      F[3] = u[3] * (1 + u[2]);
+    };
+    f.jacobian = [](In u, In p, Eigen::Ref<Matrix> J) {
+      J.setZero();
+      J(0, 0) = 2e22 * u[0];
+      J(1, 1) = 1e-9 * (2 + p[0]);
+      J(2, 0) = -1e11 * p[0];
+      J(2, 2) = 1;
+      J(3, 2) = u[3];
+      J(3, 3) = 1 + u[2];
+    };
+    f.scales = std::move(scales);
+    return from_functions(f);
+  };
+  const auto points = [&](const Vector& scales, int most) {
+    Options options = window(0, 3);
+    options.points = most;
+    const Branch branch = trace(problem(scales), {Vector{{1e-11, 5e8, 0, 0}}, Vector{{0.0}}, 0, 1}, options);
+    REQUIRE(branch.points.size() > 1);
+    return branch.points;
+  };
+  std::vector<Vector> first;
+  for (const Point& point : points(Vector::Ones(4), 5)) first.push_back(point.u);
+  const Vector scales = proposed_scales(first);
+  CHECK(scales[0] / 1e-11 == Approx(1).epsilon(1));
+  CHECK(scales[1] / 5e8 == Approx(1).epsilon(0.5));
+  CHECK(std::log(scales[3]) == Approx(std::log(scales[0] * scales[1] * scales[2]) / 3));
+  const auto all = points(scales, 1000);
+  CHECK(all.back().parameter == 3);
+  for (const Point& point : all) {
+    const double p = point.parameter;
+    CHECK(point.u[0] / (1e-11 * std::sqrt(1 + p)) == Approx(1).epsilon(1e-11));
+    CHECK(point.u[1] * (2 + p) / 1e9 == Approx(1).epsilon(1e-11));
+    CHECK(point.u[2] == Approx(p * std::sqrt(1 + p)).epsilon(1e-11).margin(1e-11));
+  }
+}
+
+TEST_CASE("scales are not proposed from nothing, from solutions that differ in size or are not finite") {
+  CHECK_THROWS_WITH(proposed_scales({}), "scales follow from one solution at least");
+  const std::vector<Vector> sizes{Vector::Ones(2), Vector::Ones(3)};
+  CHECK_THROWS_WITH(proposed_scales(sizes), "solutions of 2 and of 3 unknowns have no scales in common");
+  const std::vector<Vector> endless{Vector::Constant(2, HUGE_VAL)};
+  CHECK_THROWS_WITH(proposed_scales(endless), "a solution that scales are to follow from is not finite");
+  CHECK(proposed_scales(std::vector<Vector>{Vector::Zero(2)}) == Vector::Ones(2));
+}
