@@ -324,16 +324,13 @@ bool Corrector::chord(Vector& v, Correction& result) {
   return true;
 }
 
-double Corrector::distance_from_branch(const Vector& v) {
-  if (!evaluate(v, Needs::residual)) return std::numeric_limits<double>::quiet_NaN();
-  solve(dv_);
-  return std::sqrt(dot(dv_, dv_));
-}
-
-double Corrector::correction_from(const Vector& v) {
-  if (!evaluate(v, Needs::residual)) return std::numeric_limits<double>::quiet_NaN();
-  solve(dv_);
-  return size(dv_, v);
+// A correction that is not finite has no size.
+const Vector& Corrector::correction_at(const Vector& v) {
+  if (evaluate(v, Needs::residual))
+    solve(dv_);
+  else
+    dv_.setConstant(std::numeric_limits<double>::quiet_NaN());
+  return dv_;
 }
 
 // The first of the points v + dv, v + dv / 2, ... that passes the natural test becomes trial_. False: none.

@@ -89,12 +89,9 @@ class Corrector {
   /// NewtonOptions::iterations of them where it converges linearly only.
   Correction newton(Vector& v, const Vector& row, int iterations, Damping damping);
 
-  /// |B^-1 F(v)| in scales with the present factors: the distance of v from the branch, to first order. NaN
-  /// if F cannot be evaluated.
-  double distance_from_branch(const Vector& v);
-
-  /// The size of the correction from v with the present factors. NaN if F cannot be evaluated.
-  double correction_from(const Vector& v);
+  /// -B^-1 F(v) with the present factors, to the branch to first order, until the next correction. NaN if F
+  /// cannot be evaluated.
+  const Vector& correction_at(const Vector& v);
 
   /// Evaluates F and J at v and factorizes with the given border row. False: singular or not evaluated.
   bool linearize(const Vector& v, const Vector& row);
@@ -127,7 +124,7 @@ class Corrector {
   /// mode of vibration.
   Vector generic_direction(int k) const;
 
-  double size(const Vector& dv, const Vector& v) const;  // of a correction, relative
+  double size(const Vector& dv, const Vector& v) const;  // of a correction, relative; NaN if dv is
   double norm_u(const Vector& v) const;                  // |u| in scales
   /// <a, b> of vectors of n + 1, in the problem's metric and the scale of the free parameter.
   double dot(const Vector& a, const Vector& b) const;

@@ -127,16 +127,17 @@ Cusp cusp_form(Evaluator& at, const PlaceOfForms& place, const Vector& right, co
 
 Hopf hopf_form_near(Evaluator& at, const PlaceOfForms& place, double frequency) try {
   DirectionalDerivatives forms(at, place);
-  const auto J = dense_jacobian(forms);
+  auto J = dense_jacobian(forms);
   if (!J) return {};
-  ShiftedSolver solver(*J);
-  const auto pair = nearest_eigenpair(*J, solver, Complex(0, frequency));
+  const Jacobian J_at_place = std::move(*J);
+  ShiftedSolver solver(J_at_place);
+  const auto pair = nearest_eigenpair(std::get<Matrix>(J_at_place), solver, Complex(0, frequency));
   if (!pair) return {};
   Hopf hopf;
   hopf.frequency = pair->value.imag();
   hopf.real = pair->right.real();
   hopf.imaginary = pair->right.imag();
-  add_normal_form(at, place, hopf);
+  add_normal_form(at, place, hopf, &J_at_place);
   return hopf;
 } catch (const std::exception&) {
   return {};

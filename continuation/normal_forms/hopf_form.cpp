@@ -17,10 +17,11 @@ class HopfForm {
  public:
   HopfForm(Evaluator& at, const PlaceOfForms& place) : forms_(at, place), n_(place.u.size()) {}
 
-  bool compute(Hopf& hopf) {
-    const auto J = forms_.jacobian();
-    if (!J) return false;
-    ShiftedSolver solver(*J);
+  // known: J, or null.
+  bool compute(Hopf& hopf, const Jacobian* known = nullptr) {
+    const auto J = known ? std::nullopt : forms_.jacobian();
+    if (!known && !J) return false;
+    ShiftedSolver solver(known ? *known : *J);
     const ComplexVector z = hopf.real.cast<Complex>() + Complex(0, 1) * hopf.imaginary.cast<Complex>();
     const auto pair = refined_eigenpair(solver, Complex(0, hopf.frequency), z);
     if (!pair) return false;
@@ -91,10 +92,6 @@ class HopfForm {
   ComplexForm h11_, h20_, u_p_;
 };
 
-}  // namespace
-
-namespace {
-
 constexpr double nudge = 1e-13;  // of the scales and |u|: other rounding errors, the same form
 constexpr double widening = 10;  // of the distance between the middle one of five and the next but one
 
@@ -125,9 +122,9 @@ void choose_middle(Evaluator& at, const PlaceOfForms& place, const Hopf& given, 
 
 }  // namespace
 
-void add_normal_form(Evaluator& at, const PlaceOfForms& place, Hopf& hopf) try {
+void add_normal_form(Evaluator& at, const PlaceOfForms& place, Hopf& hopf, const Jacobian* J) try {
   const Hopf given = hopf;
-  if (HopfForm(at, place).compute(hopf) && at.by_differences().jacobian)
+  if (HopfForm(at, place).compute(hopf, J) && at.by_differences().jacobian)
     choose_middle(at, place, given, hopf);
 } catch (const std::exception&) {  // no derivatives, as it says
 }

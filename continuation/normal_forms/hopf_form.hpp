@@ -19,7 +19,8 @@ namespace arcslip::continuation {
 
 /// Adds the normal form to a Hopf point with its frequency and vectors. The evaluator is moved. Coefficients
 /// stay unknown where F has no derivatives within its piece, J is an operator or singular, or the pair is not
-/// apart from the others. J by differences is replaced by extrapolated ones. Not installed.
-void add_normal_form(Evaluator& at, const PlaceOfForms& place, Hopf& hopf);
+/// apart from the others. J by differences is replaced by extrapolated ones. J:
+/// DirectionalDerivatives::jacobian() of the place, if known. Not installed.
+void add_normal_form(Evaluator& at, const PlaceOfForms& place, Hopf& hopf, const Jacobian* J = nullptr);
 
 }  // namespace arcslip::continuation

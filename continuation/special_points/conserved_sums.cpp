@@ -4,6 +4,7 @@
 #include <arcslip/continuation/special_points/augmented_problem.hpp>
 #include <arcslip/continuation/special_points/dependent_equations.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <stdexcept>
@@ -193,6 +194,9 @@ void check_sums(const Problem& problem, const ConservedSums& sums, const Vector&
     if (row < 0 || row >= n)
       throw std::invalid_argument("a conserved sum takes the place of equation " + std::to_string(row) +
                                   " of " + std::to_string(n));
+  for (auto row = sums.rows.begin(); row != sums.rows.end(); ++row)
+    if (std::find(sums.rows.begin(), row, *row) != row)
+      throw std::invalid_argument("two conserved sums take the place of equation " + std::to_string(*row));
   if (!names.empty() && static_cast<Eigen::Index>(names.size()) != k)
     throw std::invalid_argument(std::to_string(names.size()) + " names for " + std::to_string(k) +
                                 " conserved sums");

@@ -32,7 +32,8 @@ ConservedSums conserved_sums(const Problem& problem, const Vector& u, const Vect
 
 /// The problem with these sums for equations: that of row rows[k] becomes L_k (u - u_0) = c_k. The parameters
 /// c follow those of the problem, by names[k], or "sum_1", "sum_2", .. without names. Throws
-/// std::invalid_argument for sizes that do not fit, or a matrix-free Jacobian, which has no rows.
+/// std::invalid_argument for sizes that do not fit, two sums in one row, or a matrix-free Jacobian, which has
+/// no rows.
 std::shared_ptr<const Problem> with_conserved_sums(std::shared_ptr<const Problem> problem, ConservedSums sums,
                                                    const Vector& u0, std::vector<std::string> names = {});
 

@@ -134,17 +134,19 @@ Monitor generalized_hopf_monitor() {
   return monitor;
 }
 
-void check_size_of_spectrum(const Problem& curve) {
-  if (curve.size() > largest_spectrum + 2)
-    throw std::invalid_argument(
-        "monitors of codimension 2 support at most " + std::to_string(largest_spectrum) + " unknowns, not " +
-        std::to_string(curve.size()) + ": all eigenvalues are computed at each point");
+// further: unknowns of the curve, besides those of the problem whose J it is.
+void check_size_of_spectrum(const Problem& curve, int further) {
+  const int unknowns = curve.size() - further;
+  if (unknowns > largest_spectrum)
+    throw std::invalid_argument("monitors of codimension 2 support at most " +
+                                std::to_string(largest_spectrum) + " unknowns, not " +
+                                std::to_string(unknowns) + ": all eigenvalues are computed at each point");
 }
 
 }  // namespace
 
 std::vector<Monitor> hopf_curve_monitors(const Problem& curve) {
-  check_size_of_spectrum(curve);
+  check_size_of_spectrum(curve, 2);
   std::vector<Monitor> all{zero_frequency_monitor(), generalized_hopf_monitor()};
   for (int k = 0; k < curve.size() - 4; ++k)
     for (const bool of_pair : {false, true})
@@ -153,7 +155,7 @@ std::vector<Monitor> hopf_curve_monitors(const Problem& curve) {
 }
 
 std::vector<Monitor> fold_curve_monitors(const Problem& curve) {
-  check_size_of_spectrum(curve);
+  check_size_of_spectrum(curve, 1);
   std::vector<Monitor> all{cusp_monitor(), bogdanov_takens_monitor()};
   for (int k = 0; k < curve.size() - 2; ++k)
     all.push_back(crossing_monitor(CurveOf::folds, static_cast<std::size_t>(k), true));

@@ -33,6 +33,12 @@ bool is_resolved(double a, double b, double bend) {
   return a * b > 0 ? pair_safety * bend <= sum + 2 * std::sqrt(a * b) : extremum_safety * bend <= sum;
 }
 
+// In scales, to first order. NaN if F cannot be evaluated.
+double distance_from_branch(Corrector& at, const Vector& v) {
+  const Vector& correction = at.correction_at(v);
+  return std::sqrt(at.dot(correction, correction));
+}
+
 }  // namespace
 
 bool InterpolationControl::passes_kinks(TrialStep& trial) {
@@ -80,7 +86,7 @@ double InterpolationControl::departure_across_kinks(const CurvePoint& from, cons
   double farthest = 0;
   for (const double share : shares_across_kinks) {
     hermite(from.v, from.tangent, to.v, to.tangent, length, share, middle_);
-    const double departure = main_.distance_from_branch(middle_);
+    const double departure = distance_from_branch(main_, middle_);
     if (!(departure <= most)) return departure;
     farthest = std::max(farthest, departure);
   }
@@ -142,7 +148,7 @@ double InterpolationControl::curve_error(const CurvePoint& from, TrialStep& tria
   const double length = distance(main_, from.v, to.v);
   if (!(length > 0)) return 0;
   hermite(from.v, from.tangent, to.v, to.tangent, length, 0.5, middle_);
-  const double error = main_.distance_from_branch(middle_) / allowed_error(from, to);
+  const double error = distance_from_branch(main_, middle_) / allowed_error(from, to);
   std::uint64_t piece = 0;
   const bool changes = main_.piece(piece) && (piece != to.piece || from.piece != to.piece);
   if (!changes) return std::isfinite(error) ? error : unknown_curve_error;

@@ -34,19 +34,24 @@ void Recorder::keep(const CurvePoint& place, const Correction& correction) {
   ++s_.branch.counts.points;
 }
 
-void Recorder::add_spectrum(bool is_event) {
-  if (!spectra_) return;
+bool Recorder::wants_spectrum() const {
+  if (!spectra_) return false;
   const StabilityOptions& of = *options_.stability;
   const bool everywhere = of.at == SpectrumAt::every_point ||
                           (of.at == SpectrumAt::automatic && s_.here.v.size() - 1 <= of.every_point);
-  const std::size_t events = s_.branch.events.size();
-  if (!everywhere && !is_event && s_.branch.points.size() > 1 && events == events_before_) return;
-  events_before_ = events;
-  try {
-    s_.branch.points.back().spectrum = spectra_->at(main_.evaluator().jacobian());
-  } catch (const std::exception& fault) {
-    warn_once("no stability at ", text(s_.branch.points.back().parameter) + because(fault.what()));
-  }
+  return everywhere || s_.branch.points.size() <= 1 || s_.branch.events.size() != events_before_;
+}
+
+void Recorder::add_spectrum(bool is_event) {
+  if (!wants_spectrum() && !(spectra_ && is_event)) return;
+  events_before_ = s_.branch.events.size();
+  take_spectrum(main_.evaluator());
+}
+
+void Recorder::take_spectrum(const Evaluator& at) try {
+  s_.branch.points.back().spectrum = spectra_->at(at.jacobian());
+} catch (const std::exception& fault) {
+  warn_once("no stability at ", text(s_.branch.points.back().parameter) + because(fault.what()));
 }
 
 void Recorder::warn_once(const std::string& start, const std::string& rest) {
@@ -97,9 +102,10 @@ bool Recorder::pass(const CurvePoint& from, const PassedKink& corner) {
   if (terminal_ || angle_between(main_.dot(kink.tangent, corner.beyond.tangent)) < visible_corner)
     return keep_going;
   keep(kink, {});
-  if (!keep_going || !observer_) return keep_going;
+  if (!spectra_ && (!keep_going || !observer_)) return keep_going;
   const auto now = events_.look_at(kink);
-  return !now || observer_(*now, nullptr);
+  if (now && wants_spectrum()) take_spectrum(now->at);  // of the piece before it
+  return !keep_going || !observer_ || !now || observer_(*now, nullptr);
 }
 
 bool Recorder::report(std::vector<LocatedEvent>&& all) {

@@ -52,6 +52,8 @@ class Recorder {
   bool show_last_point(bool is_there);
 
  private:
+  bool wants_spectrum() const;  // the last point
+  void take_spectrum(const Evaluator& at);
   bool pass(const CurvePoint& from, const PassedKink& corner);
   bool report(std::vector<LocatedEvent>&& found);
   void warn_of_unlocated(const Event& event);

@@ -262,7 +262,7 @@ bool Tracer::Impl::is_as_expected() {
     ++s_.expected;
     return true;
   }
-  trial_.error = main_.correction_from(trial_.end.v);
+  trial_.error = main_.size(main_.correction_at(trial_.end.v), trial_.end.v);
   const bool is_within = trial_.error <= options_.newton.tolerance;
   if (!std::isnan(trial_.error)) s_.expected = is_within ? s_.expected + 1 : -1;
   return is_within;

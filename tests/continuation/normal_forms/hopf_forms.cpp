@@ -9,6 +9,7 @@
 #include "continuation/events/hopf_problems.hpp"
 
 #include <arcslip/continuation/events/hopf.hpp>
+#include <arcslip/continuation/normal_forms/codimension_two.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
 
 #include <algorithm>
@@ -189,6 +190,35 @@ std::shared_ptr<const Problem> normal_form(double s, double b, bool derivatives)
 }
 
 }  // namespace
+
+TEST_CASE("the form of a Hopf point that is found by its frequency takes J once") {
+  int jacobians = 0;  // z' = (p + i) z - z |z|^2: c = -2 with |q| = 1
+  Functions f;
+  f.size = 2;
+  f.parameters = {{"p", ""}};
+  f.residual = [](In u, In p, Out F) {
+    const double growth = p[0] - u.squaredNorm();
+    F << growth * u[0] - u[1], u[0] + growth * u[1];
+  };
+  f.jacobian = [&](In u, In p, Eigen::Ref<Matrix> J) {
+    ++jacobians;
+    const double x = u[0], y = u[1], g = p[0] - x * x - y * y;
+    J << g - 2 * x * x, -1 - 2 * x * y, 1 - 2 * x * y, g - 2 * y * y;
+  };
+  f.derivative = [](In u, In, int, Out dF) { dF = u; };
+  f.directional = [](int order, In u, In, In v, In q, Out d) {
+    if (order == 2)
+      d = 2 * q[0] * v - 2 * (v.squaredNorm() * u + 2 * u.dot(v) * v);
+    else
+      d = -6 * v.squaredNorm() * v;
+  };
+  const auto problem = from_functions(f);
+  const auto at = problem->evaluator();
+  const Hopf hopf = hopf_form_near(*at, {Vector::Zero(2), Vector::Zero(1), 0, Vector::Ones(3)}, 1.1);
+  CHECK(jacobians == 1);
+  CHECK(std::abs(hopf.frequency - 1) < 1e-14);
+  CHECK(std::abs(hopf.lyapunov.value + 2) < 1e-13);
+}
 
 TEST_CASE(
     "errors of Lyapunov coefficients by F alone are estimated, wherever the steps lead to the Hopf point") {

@@ -167,6 +167,11 @@ TEST_CASE("conserved sums of other sizes, rows, names or Jacobians are refused")
   wrong.rows[0] = 2;
   CHECK_THROWS_WITH(with_conserved_sums(reaction, wrong, u),
                     "a conserved sum takes the place of equation 2 of 2");
+  ConservedSums twice;
+  twice.L = Matrix{{1, 1}, {1, -1}};
+  twice.rows = {1, 1};
+  CHECK_THROWS_WITH(with_conserved_sums(reaction, twice, u),
+                    "two conserved sums take the place of equation 1");
   Functions f;
   f.size = 2;
   f.parameters = {parameter("p", 0)};

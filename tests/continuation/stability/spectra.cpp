@@ -132,6 +132,31 @@ TEST_CASE("a terminal event has the spectrum of its place, also where not every 
   }
 }
 
+TEST_CASE("a corner of the branch has the spectrum of the piece before it, and the next point that beyond") {
+  // u' = p - k u with the stiffness k = 1 below u = 1, and 3 beyond.
+  Functions f;
+  f.size = 1;
+  f.parameters = {parameter("p", 0)};
+  f.residual = [](In u, In p, Out F) { F[0] = p[0] - (u[0] < 1 ? u[0] : 1 + 3 * (u[0] - 1)); };
+  f.jacobian = [](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = u[0] < 1 ? -1 : -3; };
+  f.piece = [](In u, In) { return static_cast<std::uint64_t>(u[0] < 1 ? 0 : 1); };
+  const auto problem = from_functions(f);
+  for (const SpectrumAt at : {SpectrumAt::every_point, SpectrumAt::events}) {
+    Options options = window(0.1, 2);
+    options.stability.emplace();
+    options.stability->at = at;
+    const Branch branch = trace(problem, {Vector{{0.5}}, Vector{{0.5}}, 0, 1}, options, {kink_monitor()});
+    REQUIRE(branch.events.size() == 1);
+    const std::size_t corner = branch.events[0].after + 1;
+    REQUIRE(corner + 1 < branch.points.size());
+    REQUIRE(std::abs(branch.points[corner].parameter - 1) < 1e-8);
+    REQUIRE(branch.points[corner].spectrum);
+    CHECK(branch.points[corner].spectrum->leading.at(0) == -1.0);
+    REQUIRE(branch.points[corner + 1].spectrum);
+    CHECK(branch.points[corner + 1].spectrum->leading.at(0) == -3.0);
+  }
+}
+
 TEST_CASE("infinite eigenvalues of a singular mass are dropped, in dense and in sparse problems") {
   // x' = p x - y, y' = x + p y, 0 = z - x, 0 = v + y - z: mu = p +- i. Beyond them a chain of -1, -2, ..
   for (const int chain : {0, 600}) {

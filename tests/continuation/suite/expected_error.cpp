@@ -28,7 +28,8 @@ std::vector<double> errors(const std::shared_ptr<const Problem>& problem, const 
   for (const Point& point : branch.points) {
     Vector v(point.u.size() + 1);
     v << point.u, point.parameter;
-    all.push_back(with.linearize(v, with.border_row(point.tangent)) ? with.correction_from(v) : NAN);
+    const bool linearized = with.linearize(v, with.border_row(point.tangent));
+    all.push_back(linearized ? with.size(with.correction_at(v), v) : NAN);
   }
   return all;
 }
