@@ -287,6 +287,9 @@ studies::Truncation truncation_of(std::span<const OptimumResult> optima) {
   for (const OptimumResult& each : optima) {
     studies::add(each.status, each.stop, found);
     studies::add(each.optimum.point, found);
+    // Which of equally high peaks is the highest one is a matter of rounding.
+    for (const LoadCaseResult& peak : each.optimum.cases)
+      if (peak.active) studies::add(peak.point, found);
   }
   return found;
 }

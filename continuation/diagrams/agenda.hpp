@@ -7,12 +7,13 @@
 // traced twice.
 //
 //   Agenda agenda(options);
-//   agenda.points.push_back(agenda.met(problem, event));           // and whose half-branches are traced
-//   already while (const auto way = agenda.next())
+//   agenda.points.push_back(agenda.met(problem, event));  // and whose half-branches are traced already
+//   while (const auto way = agenda.next())
 //     if (const auto entry = agenda.enter(*way, with, lower, upper))
-//       branch = trace_until(problem, start_at(*entry, p, free), options, monitors, observer, [&](const
-//       Event& e) {
-//         return agenda.arrival(problem, e, with).has_value(); });
+//       branch = trace_until(problem, start_at(*entry, p, free), options, monitors, observer,
+//                            [&](const Event& e) {
+//                              return agenda.arrival(problem, e, with).has_value();
+//                            });
 //
 // trace_diagram() is its use with one problem. Where the problem widens along a branch (widening.hpp), as
 // where a period doubles, points of several problems are on one agenda.

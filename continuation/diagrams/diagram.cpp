@@ -260,11 +260,12 @@ Diagram trace_diagram(std::shared_ptr<const Problem> problem, const Start& start
   if (given(problem)->initial_state().size() != 0)
     throw std::invalid_argument(
         "a diagram is of a problem without a state: branches that meet have left different ones");
+  const Parameter& free = problem->parameters()[static_cast<std::size_t>(start.free.in(*problem))];
+  const double lower = std::max(options.lower, free.lower), upper = std::min(options.upper, free.upper);
   for (const double at : diagram.searches)
-    if (!(at >= options.lower && at <= options.upper)) {
+    if (!(at >= lower && at <= upper)) {
       std::ostringstream text;
-      text << "a search of a diagram is at " << at << ", must be in the window, " << options.lower << " to "
-           << options.upper;
+      text << "a search of a diagram is at " << at << ", must be in the window, " << lower << " to " << upper;
       throw std::invalid_argument(text.str());
     }
   check(diagram);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <utility>
 
 namespace arcslip::continuation {
@@ -46,7 +47,8 @@ void DiagramTracer::search(double at) {
         deflate(*problem_, start.p, known, known.empty() ? std::vector{start_.u} : known, deflation);
     if (found.empty()) return;
     tried.push_back(found.front());
-    Entry entry{joined(found.front(), at), Vector(n + 1), limits_.entry.longest * (1 + found.front().norm())};
+    Entry entry{joined(found.front(), at), Vector(n + 1),
+                limits_.entry.longest * (1 + with_->norm_u(joined(found.front(), at)))};
     if (with_->correct(entry.v, row, false).converged && with_->tangent(entry.tangent) &&
         known_branch(entry, std::numbers::pi / 2) >= 0)
       continue;  // between two points around a fold
@@ -55,9 +57,14 @@ void DiagramTracer::search(double at) {
       return;
     }
     start.u = found.front();
-    add_branch_through(start);
+    if (add_branch_through(start) < 0) {
+      std::ostringstream text;
+      text << "a solution that was found at " << at << " could not be followed";
+      incomplete(text.str());
+    }
     follow_half_branches();
   }
+  if (!options_.control.keep_going()) incomplete("stopped by the caller");
 }
 
 }  // namespace arcslip::continuation

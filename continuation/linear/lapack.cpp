@@ -54,12 +54,14 @@ void factorize(int n, std::complex<double>* A, int* exchanges) {
 }
 
 void solve_triangle(const char* part, const char* diagonal, int n, int columns, const double* A, double* B) {
+  require_memory();
   const double one = 1;
   dtrsm_("L", part, "N", diagonal, &n, &columns, &one, A, &n, B, &n);
 }
 
 void solve_triangle(const char* part, const char* diagonal, int n, int columns, const std::complex<double>* A,
                     std::complex<double>* B) {
+  require_memory();
   const std::complex<double> one = 1;
   ztrsm_("L", part, "N", diagonal, &n, &columns, &one, A, &n, B, &n);
 }

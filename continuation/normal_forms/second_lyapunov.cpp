@@ -13,7 +13,7 @@
 //
 //   d/dr F(u_0 + H(r e^(i phi))) = J dH/dr,
 //
-// m! times the sum of f_jk e^(i (j-k) phi), at six angles of half a turn: the other half has (-1)^m times
+// m! times the sum of f_jk e^(i (j-k) phi), at eight angles of half a turn: the other half has (-1)^m times
 // that.
 
 #include <arcslip/continuation/normal_forms/central_quotient.hpp>
@@ -21,6 +21,7 @@
 #include <arcslip/continuation/normal_forms/propagated_error.hpp>
 #include <arcslip/continuation/problem/extrapolation.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -31,7 +32,8 @@ namespace arcslip::continuation {
 namespace {
 
 constexpr int highest_order = 5;          // order
-constexpr Eigen::Index angles = 6;        // of half a turn
+constexpr Eigen::Index angles = 8;        // of half a turn; six would do
+constexpr double spread_of_noise = 10;    // one error over another
 constexpr double first_radius = 1.0 / 4;  // of that at which H changes an unknown by its size
 
 double factorial(int m) {
@@ -54,7 +56,11 @@ class CentreManifold {
     for (int m = 2; m <= highest_order; ++m) {
       if (!derivatives(m)) return false;
       if (m == highest_order) {
-        c2.add(1 / unit_, coefficient(3, 2), lower_errors_);
+        Term f = coefficient(3, 2);
+        f.error.array() += lower_errors_ * derivatives_.value.cwiseAbs().maxCoeff() / factorial(m);
+        // Where Re c1 is not quite zero, c2 depends on the choice of the terms before it.
+        f.error.array() += std::abs(c1_.real()) * sizes_ * sizes_ * a_[1][0].value.cwiseAbs().maxCoeff();
+        c2.add(1 / unit_, f);
         return true;
       }
       for (int k = 0; 2 * k <= m; ++k)
@@ -113,15 +119,23 @@ class CentreManifold {
     return true;
   }
 
-  // f_jk of the order of derivatives_.
-  Term coefficient(int j, int k) const {
-    Term f{ComplexVector::Zero(n_), Vector::Zero(n_)};
-    const double weight = 1 / (angles * factorial(j + k));
+  // Of derivatives_, of the order m, over m!.
+  ComplexVector harmonic(int k, int m) const {
+    ComplexVector sum = ComplexVector::Zero(n_);
     for (Eigen::Index l = 0; l < angles; ++l) {
       const double phi = std::numbers::pi * static_cast<double>(l) / angles;
-      f.value += weight * turn((k - j) * phi) * derivatives_.value.segment(l * n_, n_);
-      f.error += weight * derivatives_.error.segment(l * n_, n_);
+      sum += turn(-k * phi) * derivatives_.value.segment(l * n_, n_);
     }
+    return sum / (angles * factorial(m));
+  }
+
+  // f_jk of the order of derivatives_. The harmonic m + 2 is 0 but for errors, of which it is a sample.
+  Term coefficient(int j, int k) const {
+    const int m = j + k;
+    const double noise = spread_of_noise * harmonic(m + 2, m).cwiseAbs().maxCoeff();
+    Term f{harmonic(j - k, m), Vector::Constant(n_, noise)};
+    for (Eigen::Index l = 0; l < angles; ++l)
+      f.error += derivatives_.error.segment(l * n_, n_) / (angles * factorial(m));
     return f;
   }
 
@@ -142,7 +156,9 @@ class CentreManifold {
       if (!solver_.factorize(Complex(0, (j - k) * pair_.value.imag()))) return false;
       a = solved(solver_, {-f.value, f.error});
     }
-    lower_errors_ += relative_error(a);
+    const double size = std::max(a.value.cwiseAbs().maxCoeff(), a_[1][0].value.cwiseAbs().maxCoeff());
+    lower_errors_ += a.error.maxCoeff() / size;
+    sizes_ += a.value.cwiseAbs().maxCoeff() / a_[1][0].value.cwiseAbs().maxCoeff();
     return a.value.allFinite();
   }
 
@@ -153,7 +169,8 @@ class CentreManifold {
   ShiftedSolver solver_;
   const std::uint64_t piece_;
   double unit_ = 1, lower_errors_ = 0;
-  Complex c1_ = 0;  // of z in units of unit_
+  double sizes_ = 1;  // of all terms, that of q is 1
+  Complex c1_ = 0;    // of z in units of unit_
   std::array<std::array<Term, highest_order>, highest_order> a_;
   ExtrapolatedDifference derivatives_;
 };

@@ -67,7 +67,7 @@ Vector parameter_values(const Problem& problem) {
   return values;
 }
 
-Vector proposed_scales(std::span<const Vector> solutions) {
+Vector proposed_scales(std::span<const Vector> solutions, double negligible) {
   if (solutions.empty()) throw std::invalid_argument("scales follow from one solution at least");
   Vector scales = Vector::Zero(solutions.front().size());
   for (const Vector& u : solutions) {
@@ -78,6 +78,7 @@ Vector proposed_scales(std::span<const Vector> solutions) {
       throw std::invalid_argument("a solution that scales are to follow from is not finite");
     scales = scales.cwiseMax(u.cwiseAbs());
   }
+  scales = (scales.array() > negligible).select(scales, 0);
   double logarithms = 0;
   int others = 0;
   for (const double scale : scales)

@@ -191,10 +191,10 @@ class Problem {
 };
 
 /// Scales for a problem whose unknowns differ by decades, from a few of its solutions, such as the first
-/// points of a trace with scales of 1: the largest magnitude of each unknown in them, and of one that is 0 in
-/// all the geometric mean of the others. Throws std::invalid_argument for no solutions, or solutions of
-/// different sizes or that are not finite.
-Vector proposed_scales(std::span<const Vector> solutions);
+/// points of a trace with scales of 1: the largest magnitude of each unknown in them. One that is at most
+/// `negligible` in all, as with rounding errors alone, gets the geometric mean of the others. Throws
+/// std::invalid_argument for no solutions, or solutions of different sizes or that are not finite.
+Vector proposed_scales(std::span<const Vector> solutions, double negligible = 1e-14);
 
 /// Throws std::invalid_argument unless there is at least one parameter and names are unique.
 void check_parameters(std::span<const Parameter> parameters);

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -28,15 +30,23 @@ struct Constrained {
   bool is_freed(int k) const { return std::find(freed.begin(), freed.end(), k) != freed.end(); }
 };
 
-// dg/dx of a function that sees x.
+// dg/dx of a function that sees x: a central difference, or a one-sided one at the end of the domain of g.
 template <class F>
-double central_difference(double& x, double scale, F&& g) {
+double difference(double& x, double scale, F&& g) {
   const double at = x, h = std::cbrt(2.2e-16) * std::max(std::abs(x), scale);
-  x = at + h;
-  const double above = x, g_above = g();
-  x = at - h;
-  const double below = x, g_below = g();
-  x = at;
+  const auto value_at = [&](double moved) {
+    x = moved;
+    double value = std::numeric_limits<double>::quiet_NaN();
+    try {
+      value = g();
+    } catch (const std::exception&) {  // outside the domain, as it says
+    }
+    x = at;
+    return value;
+  };
+  double above = at + h, below = at - h, g_above = value_at(above), g_below = value_at(below);
+  if (!std::isfinite(g_above)) above = at, g_above = value_at(at);
+  if (!std::isfinite(g_below)) below = at, g_below = value_at(at);
   return (g_above - g_below) / (above - below);
 }
 
@@ -135,7 +145,7 @@ class ConstrainedEvaluator final : public Evaluator, public Operator {
   double derivative(Eigen::Index i, int k) const {
     if (k >= p_.size()) return k - p_.size() == i ? -1 : 0;
     if (constraint(i).derivative) return constraint(i).derivative(u_, p_, k);
-    return central_difference(p_[k], of_->parameter(k).change(), [&] { return value(i); });
+    return difference(p_[k], of_->parameter(k).change(), [&] { return value(i); });
   }
 
   Evaluated linearize() {
@@ -148,7 +158,7 @@ class ConstrainedEvaluator final : public Evaluator, public Operator {
         continue;
       }
       for (Eigen::Index i = 0; i < of_->n(); ++i)
-        g_u_(i, j) = central_difference(u_[i], of_->scales[i], [&] { return value(j); });
+        g_u_(i, j) = difference(u_[i], of_->scales[i], [&] { return value(j); });
     }
     return F_q_.allFinite() && g_u_.allFinite() && g_q_.allFinite() ? Evaluated::ok
                                                                     : Evaluated::outside_domain;

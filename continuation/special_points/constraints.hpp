@@ -8,9 +8,10 @@
 // after those of the problem: it may be held, be the free one of a trace, or be among q, and is then an
 // outcome.
 //
-//   // Two bars that share a length, under forces that keep it: the force f and the shift s follow from the
-//   level. const auto held = with_constraints(bars, {weighted_sum({"length", "m", 2}, Vector::Ones(2)),
-//   energy}, {"f", "s"});
+//   // Two bars that share a length, under forces that keep it:
+//   // the force f and the shift s follow from the level.
+//   const auto length = weighted_sum({"length", "m", 2}, Vector::Ones(2));
+//   const auto held = with_constraints(bars, {length, energy}, {"f", "s"});
 //
 // Conserved sums w . (u - u_0) = c, integrals with the weights of a quadrature, and phase conditions
 // u_ref' . (u - u_ref) = 0 are weighted sums. A phase condition takes the place of a symmetry, and a
@@ -44,7 +45,8 @@ Constraint weighted_sum(Parameter level, Vector weights, Vector reference = {});
 /// The problem in the unknowns (u, q), q in the order of `freed`, with the parameters of the problem and then
 /// the levels. Those that are freed are unknowns, and what p says of them is ignored. make_solver: for
 /// systems with bordered J; if none, the problem's own, or the default for its Jacobian. Differences of g are
-/// central ones of steps 6e-6 max(|x|, scale). Throws std::invalid_argument if there are not as many
+/// central ones of steps 6e-6 max(|x|, scale), one-sided at the end of its domain. Bounds of freed parameters
+/// do not end a branch. Throws std::invalid_argument if there are not as many
 /// parameters as constraints, one of them twice, or constraints without a value or with names that there are,
 /// std::out_of_range for an unknown name.
 std::shared_ptr<const Problem> with_constraints(std::shared_ptr<const Problem> problem,

@@ -100,12 +100,13 @@ Monitor crossing_monitor(CurveOf curve, std::size_t k, bool of_pair) {
 
 struct LastLyapunov {
   double value = std::numeric_limits<double>::quiet_NaN();  // l1, which it keeps among neutral saddles
-  double least = std::numeric_limits<double>::infinity();   // |l1| since the last change of sign
+  double least =
+      std::numeric_limits<double>::infinity();  // |l1|, or its error, since the last change of sign
 };
 
-double lyapunov_at(const Accepted& now) {
+Coefficient lyapunov_at(const Accepted& now) {
   const PlaceOnCurve place(now);
-  return hopf_form_near(place.at(), place.place(), frequency_of_curve(now)).lyapunov.value;
+  return hopf_form_near(place.at(), place.place(), frequency_of_curve(now)).lyapunov;
 }
 
 Monitor generalized_hopf_monitor() {
@@ -116,14 +117,14 @@ Monitor generalized_hopf_monitor() {
   monitor.value = [](const Accepted& now) {
     auto& last = now.scratch.get<LastLyapunov>();
     if (!(square_of_frequency(now) > 0)) return last.value;
-    const double l1 = lyapunov_at(now);
-    if (std::isfinite(l1)) last = {l1, std::min(last.least, std::abs(l1))};
-    return l1;
+    const Coefficient l1 = lyapunov_at(now);
+    if (l1.known()) last = {l1.value, std::min(last.least, std::max(std::abs(l1.value), l1.error))};
+    return l1.value;
   };
   monitor.is_event = [](const Accepted& now) {
     if (!(square_of_frequency(now) > 0)) return false;
     auto& last = now.scratch.get<LastLyapunov>();
-    const bool is_zero = std::abs(lyapunov_at(now)) <= of_zero * last.least;
+    const bool is_zero = std::abs(lyapunov_at(now).value) <= of_zero * last.least;
     last.least = std::numeric_limits<double>::infinity();
     return is_zero;
   };

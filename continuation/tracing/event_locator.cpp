@@ -38,6 +38,7 @@ EventLocator::EventLocator(std::shared_ptr<const Problem> problem, Vector p, int
       courses_(courses),
       counts_(counts) {
   courses_.resize(monitors_.size());
+  state_ = problem_->initial_state();
 }
 
 Corrector& EventLocator::probe() {
@@ -109,6 +110,7 @@ void EventLocator::follow(std::size_t monitor, Find by, const CurvePoint& from, 
       if (!wanted) course.last = extreme;
     } else if (event->rounding == 0 || side * (event->quantity - *course.last) > event->rounding) {
       course.waiting = std::move(event);
+      course.waiting->accepted = state_;
       course.side = side;
     }
   }
@@ -119,6 +121,7 @@ void EventLocator::follow(std::size_t monitor, Find by, const CurvePoint& from, 
     course.waiting->event.value = to.monitors[monitor];
     course.waiting->place = to;
     course.waiting->quantity = next;
+    course.waiting->accepted = state_;
   }
   judge(course, next, certain);
 }

@@ -42,6 +42,7 @@ class EventLocator {
 
   /// The problem's state, for the steps that follow.
   void set_state(const Vector& state) {
+    state_ = state;
     if (probe_) probe_->set_state(state);
   }
 
@@ -130,6 +131,7 @@ class EventLocator {
   const std::vector<Monitor>& monitors_;
   std::vector<Course>& courses_;
   Counts& counts_;
+  Vector state_;                        // of the problem
   std::unique_ptr<Corrector> probe_;    // created at the first event
   std::vector<LocatedCorner> located_;  // since forget(): shorter attempts at a step meet them again
   bool from_crossing_ = false;          // the current section starts at a branch point

@@ -105,7 +105,7 @@ bool Recorder::pass(const CurvePoint& from, const PassedKink& corner) {
   if (!spectra_ && (!keep_going || !observer_)) return keep_going;
   const auto now = events_.look_at(kink);
   if (now && wants_spectrum()) take_spectrum(now->at);  // of the piece before it
-  return !keep_going || !observer_ || !now || observer_(*now, nullptr);
+  return keep_going && (!observer_ || !now || observer_(*now, nullptr));
 }
 
 bool Recorder::report(std::vector<LocatedEvent>&& all) {
@@ -121,7 +121,7 @@ bool Recorder::report(std::vector<LocatedEvent>&& all) {
     const bool terminal = std::any_of(monitors_.begin(), monitors_.end(), [&](const Monitor& m) {
       return m.terminal && m.name == event->monitor;
     });
-    if (terminal && !terminal_) terminal_ = std::move(found.place);
+    if (terminal && !terminal_) terminal_ = std::move(found);
   }
   return keep_going;
 }

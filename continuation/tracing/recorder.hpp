@@ -44,7 +44,7 @@ class Recorder {
   bool events_of(TrialStep& trial);
 
   /// The first terminal event, if one was met: the branch ends there.
-  const std::optional<CurvePoint>& terminal() const { return terminal_; }
+  const std::optional<LocatedEvent>& terminal() const { return terminal_; }
 
   bool has_observer() const { return static_cast<bool>(observer_); }
 
@@ -66,7 +66,7 @@ class Recorder {
   State& s_;
   Corrector& main_;
   EventLocator& events_;
-  std::optional<CurvePoint> terminal_;
+  std::optional<LocatedEvent> terminal_;
   std::optional<SpectrumFinder> spectra_;
   std::size_t events_before_ = 0;  // of the branch, at the last spectrum
 };

@@ -172,7 +172,7 @@ void fields_of_point_of_curve(auto& visit, auto& x) {
     visit("a", x.a), visit("b", x.b), visit("criticality", x.criticality);
   } else if constexpr (is<T, GeneralizedHopf>) {
     visit("frequency", x.frequency), visit("lyapunov", x.lyapunov), visit("detuning", x.detuning);
-    visit("second_lyapunov", x.second_lyapunov);
+    newer_field(visit, "second_lyapunov", x.second_lyapunov);
   } else if constexpr (is<T, ZeroHopf>) {
     visit("frequency", x.frequency), visit("g200", x.g200), visit("g011", x.g011), visit("g300", x.g300);
     visit("g111", x.g111), visit("g110_real", x.g110_real), visit("g110_imaginary", x.g110_imaginary);
@@ -249,7 +249,7 @@ void fields(Visit&& visit, auto& x) {
     newer_field(visit, "part", x.part);
   } else if constexpr (is<T, LocatedEvent>) {
     visit("event", x.event), visit("place", x.place), visit("quantity", x.quantity);
-    visit("rounding", x.rounding);
+    visit("rounding", x.rounding), newer_field(visit, "accepted", x.accepted);
   } else if constexpr (is<T, Course>) {
     visit("last", x.last), visit("waiting", x.waiting), visit("side", x.side);
   } else if constexpr (is<T, Linearization>) {

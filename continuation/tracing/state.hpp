@@ -18,6 +18,7 @@ struct LocatedEvent {
   Event event;
   CurvePoint place;
   double quantity = 0, rounding = 0;  // q and r of the quantity whose slope the monitor is
+  Vector accepted{};                  // of one that was pending: the problem's state when it was located
 };
 
 /// The state of the quantity whose slope a monitor is.

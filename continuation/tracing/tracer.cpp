@@ -398,7 +398,9 @@ bool Tracer::Impl::accept_state() {
 }
 
 // Ends the branch at a terminal event: points and events beyond it, found while it was pending, are dropped.
-bool Tracer::Impl::end_at(const CurvePoint& terminal) {
+bool Tracer::Impl::end_at(const LocatedEvent& found) {
+  const CurvePoint& terminal = found.place;
+  if (found.accepted.size() != 0) main_.set_state(found.accepted);
   auto& points = s_.branch.points;
   auto& events = s_.branch.events;
   while (!points.empty() && points.back().arclength > terminal.arclength) points.pop_back();

@@ -77,7 +77,7 @@ class Tracer::Impl {
   bool step_beyond_corner();
 
   void end_in_tail(double bound);
-  bool end_at(const CurvePoint& terminal);
+  bool end_at(const LocatedEvent& found);
   bool within_limits();
   bool end(StopReason reason, double value, double limit, std::string message);
 

@@ -99,7 +99,11 @@ struct NormalForm {
             {"g021_real", at.g021_real}, {"g021_imaginary", at.g021_imaginary}};
   }
   Named operator()(const continuation::DoubleHopf& at) const {
-    return {{"g2100", at.g2100}, {"g1011", at.g1011}, {"g1110", at.g1110}, {"g0021", at.g0021}};
+    return {{"other_frequency", {at.other_frequency, 0}},
+            {"g2100", at.g2100},
+            {"g1011", at.g1011},
+            {"g1110", at.g1110},
+            {"g0021", at.g0021}};
   }
 };
 
@@ -221,6 +225,8 @@ results::Result result_of(const BranchPart& part, bool of_diagram, const Columns
   result.tables = {point_columns(columns).rows(points), event_columns(columns).rows(events),
                    range_columns(columns).rows(ranges)};
   result.end.status = status_of(branch.stop, !branch.points.empty());
+  if (part.begin && result.end.status == Status::complete)
+    result.end.status = status_of(*part.begin, !branch.points.empty());
   result.end.stop = stop_of(branch.stop);
   if (part.begin) result.end.facts.push_back({"begin", stop_of(*part.begin)});
   Value::List warnings;
@@ -271,9 +277,9 @@ results::Results results_of(const continuation::Diagram& diagram, const Columns&
     results::Result result;
     result.schema = 1;
     result.head.facts = {{columns.parameter, junction.parameter, columns.parameter_unit},
-                         {"branch", junction.branch + 1},
-                         {"event", junction.event + 1},
                          {"depth", junction.depth}};
+    if (junction.branch >= 0) result.head.facts.push_back({"branch", junction.branch + 1});
+    if (junction.event >= 0) result.head.facts.push_back({"event", junction.event + 1});
     result.tables = {half_branch_columns().rows(junction.half_branches)};
     const bool is_whole = std::all_of(junction.half_branches.begin(), junction.half_branches.end(),
                                       [](const auto& half) { return half.branch >= 0; });

@@ -34,10 +34,22 @@ std::string fingerprint(const char* what, const double* from, Eigen::Index count
   return what + std::to_string(std::hash<std::string_view>()(all)) + ' ';
 }
 
+namespace {
+
+std::string key_of_reduction(const scene::Matrices& of, double cutoff) {
+  const scene::Reduction& how = of.reduction;
+  const double numbers[] = {of.highest_frequency, static_cast<double>(how.method), how.accuracy,
+                            static_cast<double>(how.modes), cutoff};
+  return fingerprint("by ", numbers, std::size(numbers));
+}
+
+}  // namespace
+
 std::string ring_key(const scene::Matrices& sector) {
   const auto& factors = sector.stiffness_factors;
   return fingerprint(("the ring of " + std::to_string(sector.copies) + " with ").c_str(), factors.data(),
-                     static_cast<Eigen::Index>(factors.size()));
+                     static_cast<Eigen::Index>(factors.size())) +
+         key_of_reduction(sector, sector.reduction.cutoff);
 }
 
 Placer::Placer(const scene::Scene& scene, const scene::Matrices& files, const control::Control& control)
@@ -179,9 +191,7 @@ std::pair<structure::Purpose, std::string> Placer::purpose(const std::vector<std
                                   : scene::cutoff_of_highest * purpose.highest;
   std::string key = "reduced for " + std::to_string(purpose.highest) + " rad/s, " +
                     std::to_string(purpose.highest_speed) + " rad/s to ";
-  const double numbers[] = {static_cast<double>(how.method), how.accuracy, static_cast<double>(how.modes),
-                            purpose.cutoff};
-  key += fingerprint("by ", numbers, std::size(numbers));
+  key += key_of_reduction(files_, purpose.cutoff);
   for (const int row : rows_) key += std::to_string(row) + ' ';
   purpose.loads.resize(files_.size(), static_cast<Index>(loads.size()));
   for (std::size_t k = 0; k < loads.size(); ++k) {

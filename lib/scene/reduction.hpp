@@ -1,6 +1,8 @@
 #pragma once
 // How a structure from matrices is reduced to the rows that a scene uses and to coordinates of all others.
 
+#include <string_view>
+
 namespace arcslip::scene {
 
 class SettingsKeys;
@@ -16,6 +18,9 @@ struct Reduction {
 };
 
 inline constexpr double cutoff_of_highest = 2;
+
+/// As in a scene file.
+std::string_view name(ReductionMethod method);
 
 /// The keys of a Reduction in a scene file.
 const SettingsKeys& reduction_keys();

@@ -32,11 +32,12 @@
 //
 // With modes in place of that space, sigma is 0, so that statics are exact whatever the modes:
 //
-//   fixed-interface modes of b held, K_ii V = M_ii V diag(omega^2): R. R. Craig and M. C. C. Bampton,
-//   Coupling
-//     of substructures for dynamic analyses, AIAA J. 6 (1968) 1313
-//   free-interface modes Phi with their residual flexibility: S. Rubin, Improved component-mode
-//     representation for structural dynamic analysis, AIAA J. 13 (1975) 995
+//   fixed-interface modes of b held, K_ii V = M_ii V diag(omega^2):
+//     R. R. Craig and M. C. C. Bampton, Coupling of substructures for dynamic analyses,
+//     AIAA J. 6 (1968) 1313
+//   free-interface modes Phi with their residual flexibility:
+//     S. Rubin, Improved component-mode representation for structural dynamic analysis,
+//     AIAA J. 13 (1975) 995
 //
 // Rubin's vectors, Phi and what the statics of forces on b, balanced by inertia where the structure floats,
 // have next to them, span (I, Psi) x_b and (0, Phi_i - Psi Phi_b): the latter, of K_ii (Phi_i - Psi Phi_b) =

@@ -140,7 +140,7 @@ void StaticCondensation::factorize() {
 }
 
 void StaticCondensation::refuse_indefinite(const std::string& where) const {
-  refuse("K + s M with s = " + three_digits(sigma_) +
+  refuse("K + s M with s = " + three_digits(sigma_ + P_.shift) +
          " 1/s^2 is not positive definite, as it is where mass and stiffness are positive semidefinite and "
          "no part without mass floats" +
          where);

@@ -2,6 +2,7 @@
 
 #include <arcslip/control/ordered_parallel_for.hpp>
 #include <arcslip/studies/highest_harmonic.hpp>
+#include <arcslip/studies/presentation/columns.hpp>
 
 #include <algorithm>
 #include <map>
@@ -115,13 +116,15 @@ Computed compute_at(const scene::Scene& scene, const scene::Setting& set, int th
 std::vector<results::Result> results_of(const Computation& computation, Computed& computed,
                                         const scene::Study& study, scene::Scene& with_order) {
   with_order.harmonics = computed.harmonics;
-  const std::string beyond = scene::beyond_reduction(with_order, study);
+  const std::string beyond = scene::beyond_reduction(with_order, study),
+                    rough = doubt_of_reduction(with_order);
   std::vector<results::Result> all;
   for (std::size_t i = 0; i < computed.items->size(); ++i) {
     computed.items->put_study(i, study);
     results::Result& result = all.emplace_back(computation.result(*computed.items, i));
     if (computed.selection) computed.selection->tell(result.end);
-    if (!beyond.empty()) result.end.doubt += (result.end.doubt.empty() ? "" : "; ") + beyond;
+    for (const std::string& doubt : {beyond, rough})
+      if (!doubt.empty()) result.end.doubt += (result.end.doubt.empty() ? "" : "; ") + doubt;
   }
   return all;
 }

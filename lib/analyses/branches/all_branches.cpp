@@ -186,10 +186,19 @@ class AllBranches {
     continuation::Counts counts;
     const continuation::Corrector in(*problem, hbm::parameters_at(*problem, omega), model::frequency, {},
                                      counts);
-    if (agenda_.index_of(problem, event, in) < agenda_.points.size()) return;
+    if (const std::size_t known = agenda_.index_of(problem, event, in); known < agenda_.points.size())
+      return pass(known, std::get<BranchPoint>(event.data).tangents.front(), in);
     Junction met = Agenda::met(problem, event);
     for (std::size_t along = 0; along < 2; ++along) met.half_branches[along].branch = static_cast<int>(k);
     add_to_agenda(std::move(met), k, static_cast<std::size_t>(at - all.begin()));
+  }
+
+  // The last known branch passes a known point along a direction: its half-branches there need no other one.
+  void pass(std::size_t point, const Vector& along, const continuation::Corrector& in) {
+    Junction& passed = agenda_.points[point];
+    for (const Vector& way : {Vector(along), Vector(-along)})
+      if (const auto half = agenda_.nearest(passed, way, in); half && passed.half_branches[*half].branch < 0)
+        passed.half_branches[*half].branch = static_cast<int>(known_.size()) - 1;
   }
 
   void follow_half_branches() {

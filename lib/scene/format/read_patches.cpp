@@ -234,6 +234,9 @@ class PatchRows {
       sum += node.weight;
       all.push_back(std::move(node));
     }
+    if (all.size() > 1 &&
+        std::any_of(all.begin(), all.end(), [](const auto& node) { return node.name == ground; }))
+      fault("found \"ground\" among other nodes, must be alone");
     for (WeightedNode& node : all) node.weight /= sum;
     return all;
   }
@@ -247,7 +250,7 @@ class PatchRows {
       for (const WeightedNode& node : nodes)
         for (std::size_t c = 0; c < 3; ++c)
           if (node.name != ground && axis[c] != 0 &&
-              !add(node.name + names[c], sign * node.weight * axis[c], direction))
+              !add_displacement(node.name + names[c], sign * node.weight * axis[c], direction))
             return false;
       return true;
     };
@@ -317,6 +320,12 @@ class PatchRows {
       found = dofs_.index.find(name);
     }
     if (name == ground) return true;
+    return add_displacement(name, weight, direction);
+  }
+
+  // False: there is none of this name.
+  bool add_displacement(const std::string& name, double weight, Direction& direction) {
+    const auto found = dofs_.index.find(name);
     if (found == dofs_.index.end()) {
       if (dofs_.complete)
         fault("found " + shown(name) + ", must be one of the degrees of freedom " + listed(dofs_.names) +

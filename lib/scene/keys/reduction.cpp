@@ -76,6 +76,10 @@ file::KeysOf<Reduction> keys_of_reduction() {
 
 }  // namespace
 
+std::string_view name(ReductionMethod method) {
+  return file::word_of(reduction_methods, method);
+}
+
 const SettingsKeys& reduction_keys() {
   static const file::KeysOf<Reduction> all = keys_of_reduction();
   return all;

@@ -17,6 +17,8 @@
 namespace arcslip::studies {
 namespace {
 
+constexpr double largest_error_of_reduction = 1e-3;  // by Krylov spaces more is refused
+
 using observables::Quantity;
 using observables::ResponsePoint;
 
@@ -146,6 +148,14 @@ void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown,
   add_parts(scene.patches, "patches");
 }
 
+std::string doubt_of_reduction(const scene::Scene& scene) {
+  if (!scene.matrices || scene.matrices->reduction.method == scene::ReductionMethod::krylov) return {};
+  const auto reduction = observables::reduction(scene);
+  if (!reduction || reduction->error <= largest_error_of_reduction) return {};
+  return "the reduction of the structure may have an error of " + results::quantity(reduction->error, "") +
+         " up to its highest_frequency: keep more modes";
+}
+
 results::Header header(const scene::Scene& scene) {
   const std::string unit(scene::unit_name(scene.frequency_unit));
   results::Header header{"arcslip " + std::string(results::version()), scene::hash(scene), scene.title, unit};
@@ -155,6 +165,8 @@ results::Header header(const scene::Scene& scene) {
                         {"coordinates", reduction->coordinates},
                         {"error", reduction->error},
                         {"highest_frequency", scene.matrices->highest_frequency, unit}};
+    if (const auto method = scene.matrices->reduction.method; method != scene::ReductionMethod::krylov)
+      header.reduction.push_back({"method", std::string(scene::name(method))});
     if (scene.matrices->copies > 1 && scene.matrices->faces.empty())
       header.reduction.push_back({"copies", scene.matrices->copies});
     if (reduction->highest_speed > 0)

@@ -197,14 +197,17 @@ namespace {
 // Z*, in coordinates u in which y = Psi(u) is not linear, Psi'(0) = 1, with J by complex steps. |q| = 1 makes
 // Z sqrt(2) z.
 template <class T>
-Eigen::Matrix<T, 3, 1> bautin_in_curved_coordinates(const Eigen::Matrix<T, 3, 1>& u, In p, double e) {
+Eigen::Matrix<T, 3, 1> bautin_in_curved_coordinates(const Eigen::Matrix<T, 3, 1>& u, In p, double e,
+                                                    double curved) {
   using Vector3 = Eigen::Matrix<T, 3, 1>;
   const T a = u[0], b = u[1], c = u[2];
-  const Vector3 y{a + 0.3 * b * b - 0.2 * a * c, b + 0.4 * a * a + 0.25 * a * b * c - 0.1 * c * c,
-                  c + 0.2 * a * b + 0.15 * b * b * b};
+  const Vector3 y{a + curved * (0.3 * b * b - 0.2 * a * c),
+                  b + curved * (0.4 * a * a + 0.25 * a * b * c - 0.1 * c * c),
+                  c + curved * (0.2 * a * b + 0.15 * b * b * b)};
   Eigen::Matrix<T, 3, 3> by;
-  by << 1.0 - 0.2 * c, 0.6 * b, -0.2 * a, 0.8 * a + 0.25 * b * c, 1.0 + 0.25 * a * c, 0.25 * a * b - 0.2 * c,
-      0.2 * b, 0.2 * a + 0.45 * b * b, T(1);
+  by << -0.2 * c, 0.6 * b, -0.2 * a, 0.8 * a + 0.25 * b * c, 0.25 * a * c, 0.25 * a * b - 0.2 * c, 0.2 * b,
+      0.2 * a + 0.45 * b * b, T(0);
+  by = curved * by + Eigen::Matrix<T, 3, 3>::Identity();
   const T square = y[0] * y[0] + y[1] * y[1];
   const T real = p[0] + p[1] * square + e * square * square,
           imaginary = 2.0 + 0.3 * square + 0.4 * square * square;
@@ -219,17 +222,17 @@ Eigen::Matrix<T, 3, 1> bautin_in_curved_coordinates(const Eigen::Matrix<T, 3, 1>
   return cofactors.transpose() * f / determinant;
 }
 
-std::shared_ptr<const Problem> bautin_problem(double e, bool exact) {
-  const auto residual = [e](In u, In p, Out F) {
-    F = bautin_in_curved_coordinates<double>(Eigen::Vector3d(u), p, e);
+std::shared_ptr<const Problem> bautin_problem(double e, double curved, bool exact) {
+  const auto residual = [=](In u, In p, Out F) {
+    F = bautin_in_curved_coordinates<double>(Eigen::Vector3d(u), p, e, curved);
   };
   const std::vector<Parameter> parameters{parameter("p1", 0), parameter("p2", 0)};
   if (!exact) return from_functions(3, parameters, residual);
-  return from_functions(3, parameters, residual, [e](In u, In p, Eigen::Ref<Matrix> J) {
+  return from_functions(3, parameters, residual, [=](In u, In p, Eigen::Ref<Matrix> J) {
     for (int j = 0; j < 3; ++j) {
       Eigen::Vector3cd x = u.cast<Z>();
       x[j] += Z(0, 1e-100);
-      J.col(j) = bautin_in_curved_coordinates<Z>(x, p, e).imag() * 1e100;
+      J.col(j) = bautin_in_curved_coordinates<Z>(x, p, e, curved).imag() * 1e100;
     }
   });
 }
@@ -238,20 +241,21 @@ std::shared_ptr<const Problem> bautin_problem(double e, bool exact) {
 
 TEST_CASE(
     "the second Lyapunov coefficient is that of Bautin's normal form in any coordinates, where J is exact") {
-  for (const double e : {-1.0, 0.7, 0.02}) {
-    const auto hopf_points = [&](bool exact) {
-      const Branch curve = hopf_curve_of(bautin_problem(e, exact),
-                                         {Vector::Zero(3), Vector{{-0.5, -0.4}}, 0, 1}, -0.5, 0.6, 0.5);
-      REQUIRE(curve.events.size() == 1);
-      return std::get<GeneralizedHopf>(curve.events[0].data);
-    };
-    const Coefficient l2 = hopf_points(true).second_lyapunov;
-    REQUIRE(l2.known());
-    CHECK(std::abs(l2.value - 2 * e) < 1e-7);
-    CHECK(std::abs(l2.value - 2 * e) <= l2.error);
-    CHECK(l2.error < 1e-5);
-    CHECK_FALSE(hopf_points(false).second_lyapunov.known());
-  }
+  for (const double e : {-1.0, 0.7, 0.02})
+    for (const double curved : {0.0, 1e-6, 1.0}) {
+      const auto hopf_points = [&](bool exact) {
+        const Branch curve = hopf_curve_of(bautin_problem(e, curved, exact),
+                                           {Vector::Zero(3), Vector{{-0.5, -0.4}}, 0, 1}, -0.5, 0.6, 0.5);
+        REQUIRE(curve.events.size() == 1);
+        return std::get<GeneralizedHopf>(curve.events[0].data);
+      };
+      const Coefficient l2 = hopf_points(true).second_lyapunov;
+      REQUIRE(l2.known());
+      CHECK(std::abs(l2.value - 2 * e) < 1e-7);
+      CHECK(std::abs(l2.value - 2 * e) <= l2.error);
+      CHECK(l2.error < 1e-5);
+      CHECK_FALSE(hopf_points(false).second_lyapunov.known());
+    }
 }
 
 namespace {

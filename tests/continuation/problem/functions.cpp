@@ -122,4 +122,6 @@ TEST_CASE("scales are not proposed from nothing, from solutions that differ in s
   const std::vector<Vector> endless{Vector::Constant(2, HUGE_VAL)};
   CHECK_THROWS_WITH(proposed_scales(endless), "a solution that scales are to follow from is not finite");
   CHECK(proposed_scales(std::vector<Vector>{Vector::Zero(2)}) == Vector::Ones(2));
+  CHECK(proposed_scales(std::vector<Vector>{Vector{{4.0, 1e-17, -9.0}}})
+            .isApprox(Vector{{4.0, 6.0, 9.0}}, 1e-15));
 }

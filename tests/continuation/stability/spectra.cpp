@@ -154,6 +154,10 @@ TEST_CASE("a corner of the branch has the spectrum of the piece before it, and t
     CHECK(branch.points[corner].spectrum->leading.at(0) == -1.0);
     REQUIRE(branch.points[corner + 1].spectrum);
     CHECK(branch.points[corner + 1].spectrum->leading.at(0) == -3.0);
+    const Branch stopped = trace(problem, {Vector{{0.5}}, Vector{{0.5}}, 0, 1}, options, {kink_monitor()},
+                                 [](const Accepted&, const Event* event) { return event == nullptr; });
+    CHECK(stopped.stop.reason == StopReason::user);
+    CHECK(stopped.points.back().parameter < 1.5);
   }
 }
 

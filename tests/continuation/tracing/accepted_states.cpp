@@ -178,6 +178,36 @@ TEST_CASE("a terminal event is the last point and leaves a state, those before i
   CHECK(branch.state[0] == static_cast<double>(branch.points.size()));
 }
 
+TEST_CASE("a terminal event that was uncertain for some points leaves the state of its own step") {
+  // p = 1e6 - 1e-12 u^2: near the fold p changes by less than its rounding over many points.
+  StateFunctions flat = counting();
+  flat.functions = [](AcceptedState) {
+    Functions f;
+    f.size = 1;
+    f.parameters = {{"p", "", 1e6, 1, -1e300, 1e300}};
+    f.residual = [](In u, In p, Out F) { F[0] = p[0] - 1e6 + 1e-12 * u[0] * u[0]; };
+    f.jacobian = [](In u, In, Eigen::Ref<Matrix> J) { J(0, 0) = 2e-12 * u[0]; };
+    f.derivative = [](In, In, int, Out dF) { dF[0] = 1; };
+    return f;
+  };
+  Options options = window(1e6 - 1, 1e6 + 1);
+  options.keep_states = true;
+  options.points = 2000;
+  Monitor fold = fold_monitor();
+  fold.terminal = true;
+  long shown = 0;
+  const Start start{Vector::Constant(1, -400.0), Vector::Constant(1, 1e6 - 1.6e-7), 0, 1, Vector{{1.0, 0.0}}};
+  const Branch branch =
+      trace(from_functions(flat), start, options, {fold}, [&](const Accepted&, const Event* event) {
+        if (event == nullptr) ++shown;
+        return true;
+      });
+  REQUIRE(branch.stop.reason == StopReason::event);
+  CHECK(shown > static_cast<long>(branch.points.size()));  // points beyond it were accepted, and dropped
+  CHECK(branch.state[0] == static_cast<double>(branch.points.size()));
+  CHECK(branch.points.back().state[0] == branch.state[0]);
+}
+
 TEST_CASE("an observer sees a point in the state that it was computed from, and may ask for the next one") {
   std::vector<double> next;
   const Observer look = [&](const Accepted& now, const Event* event) {

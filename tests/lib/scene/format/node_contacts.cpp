@@ -134,6 +134,10 @@ TEST_CASE("faults of contacts by nodes name the line of the file") {
                  line + "found the tangent \"0 0 2\", must not be along the normal"));
   CHECK(contains(fault_of(head + "-1*a1,a2,0 0 1,,1\n"),
                  line + "found the weight -1 of the node \"a1\", must be above 0"));
+  CHECK(contains(fault_of(head + "a1 -a2,ground,0 0 1,,1\n"), line + "found \"-a2.x\", must be one of"));
+  CHECK(contains(fault_of(head + "2*3*a1,a2,0 0 1,,1\n"), line + "found \"3*a1.x\", must be one of"));
+  CHECK(contains(fault_of(head + "a1 ground,a2,0 0 1,,1\n"),
+                 line + "found \"ground\" among other nodes, must be alone"));
   CHECK(contains(fault_of(head + "a1,a1,0 0 1,,1\n"),
                  line + "found the same nodes on both sides, must be those of two surfaces"));
   CHECK(contains(fault_of(head + "a1,a9,0 0 1,,1\n"),
