@@ -45,7 +45,7 @@ void DiagramTracer::search(double at) {
     known.insert(known.end(), tried.begin(), tried.end());
     const std::vector<Vector> found =
         deflate(*problem_, start.p, known, known.empty() ? std::vector{start_.u} : known, deflation);
-    if (found.empty()) return;
+    if (found.empty()) break;
     tried.push_back(found.front());
     Entry entry{joined(found.front(), at), Vector(n + 1),
                 limits_.entry.longest * (1 + with_->norm_u(joined(found.front(), at)))};

@@ -55,3 +55,39 @@ TEST_CASE("reduce refuses names that a table of names cannot hold before it writ
     CHECK(place.files() == before);
   }
 }
+
+TEST_CASE("a reduction by so few modes that it may be wrong is a doubt of the results") {
+  // A chain of 60 masses of 1 kg between springs of 1 N/m, fixed at one end.
+  const Workplace place;
+  std::string mass = "%%MatrixMarket matrix coordinate real symmetric\n60 60 60\n",
+              stiffness = "%%MatrixMarket matrix coordinate real symmetric\n60 60 119\n";
+  for (int i = 1; i <= 60; ++i) {
+    const std::string row = std::to_string(i);
+    mass += row + " " + row + " 1\n";
+    stiffness += row + " " + row + (i < 60 ? " 2\n" : " 1\n");
+    if (i > 1) stiffness += row + " " + std::to_string(i - 1) + " -1\n";
+  }
+  place.write("M.mtx", mass);
+  place.write("K.mtx", stiffness);
+  place.write("names.csv", "name,row\ntip,60\n");
+  const auto response = [&](int modes) {
+    place.write("chain.json", R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
+      "matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "highest_frequency": 1.5,
+                   "reduction": {"method": "craig_bampton", "modes": )" +
+                                  std::to_string(modes) + R"(}},
+      "names": "names.csv", "damping": [{"name": "d", "type": "rayleigh", "alpha": 0.001, "beta": 0}]},
+      "excitation": [{"name": "f", "at": "tip", "cosine": 1}], "response": {"at": "tip"},
+      "harmonics": {"order": 1}, "studies": [{"kind": "frf", "from": 0.02, "to": 0.04}]})");
+    const Ended ended = run(place, {"frf", "chain.json", "--json", "-"});
+    CAPTURE(ended.err);
+    REQUIRE(ended.exit_code == 0);
+    return Json::parse(ended.out);
+  };
+  const Json few = response(2), all = response(59);
+  CHECK(few["reduction"]["method"] == "craig_bampton");
+  const std::string doubt = few["branches"][0].value("doubt", "");
+  CAPTURE(doubt);
+  CHECK(doubt.find("the reduction of the structure may have an error of ") != std::string::npos);
+  CHECK(doubt.find(" up to its highest_frequency: keep more modes") != std::string::npos);
+  CHECK_FALSE(all["branches"][0].contains("doubt"));
+}

@@ -1,6 +1,7 @@
 // Diagrams of branches that cross: each branch once, compared with closed forms.
 
 #include "continuation/diagrams/diagram_problems.hpp"
+#include "controls.hpp"
 
 #include <numbers>
 
@@ -277,6 +278,20 @@ TEST_CASE("where pieces meet, the half-branches next to the one traced are follo
     CHECK(std::abs(ends[i].first - (i < 2 ? -1 : 1)) < 1e-12);
     CHECK(ends[i].second == (i % 2 ? 1 : -1));
   }
+}
+
+TEST_CASE("a diagram whose search is stopped is not complete") {
+  bool searched = false;
+  const auto apart = from_functions(1, {{"l", ""}}, [&](In u, In p, Out F) {
+    searched = searched || p[0] == 0.1;
+    F[0] = (u[0] + 2) * ((u[0] - 1) * (u[0] - 1) + p[0] * p[0] - 0.25);
+  });
+  Options options = window(-1, 1);
+  options.control = controls::polled([&] { return !searched; });
+  const Diagram diagram = trace_diagram(apart, at(-2, -1), options, {.searches = {0.1}});
+  CHECK(diagram.branches.size() == 1);
+  CHECK_FALSE(diagram.complete);
+  CHECK(diagram.message == "stopped by the caller");
 }
 
 TEST_CASE("a search finds the circle that no branch crosses, and both branches of an imperfect pitchfork") {

@@ -212,6 +212,11 @@ TEST_CASE(
     CHECK(events[static_cast<std::size_t>(e)]["kind"] == kind);
     CHECK(events[static_cast<std::size_t>(e)]["label"] == label);
   }
+  CHECK(all["branches"][0]["status"] == "complete");
+  WholeBranch cut_short = whole;
+  cut_short.begin.reason = StopReason::step_too_small;
+  CHECK(as_json(diagrams::results_of(
+            cut_short, diagrams::columns_of(*problem, 0)))["branches"][0]["status"] == "stopped");
   const auto data = diagrams::figure_data_of(whole, diagrams::columns_of(*problem, 0));
   CHECK(data.lines[0].unstable == std::vector<bool>{false, true, false});
   CHECK(data.lines[0].marks[1].label == "middle");
