@@ -33,7 +33,10 @@ void DiagramTracer::follow_half_branches() {
   while (!stopped_) {
     const auto place = agenda_.next();
     if (!place) return;
-    if (agenda_.points[place->point].depth < limits_.depth) leave(*place);
+    if (agenda_.points[place->point].depth < limits_.depth)
+      leave(*place);
+    else if (std::string& why = agenda_.at(*place).untraced; why.empty())
+      why = "a branch of it is beyond the depth of the diagram, " + std::to_string(limits_.depth);
   }
 }
 
@@ -173,7 +176,8 @@ Branch DiagramTracer::follow(const Beginning& from, int branch, int depth) {
       });
   drop_empty_step(traced);
   if (last == Arrival::repeated)
-    traced.stop = {StopReason::user, 0, 0, "reached a half-branch that was already traced"};
+    traced.stop = {StopReason::known_branch, at.point.parameter, at.point.parameter,
+                   "reached a half-branch that was already traced"};
   if (last == Arrival::home) {
     const Vector x = joined(at.point.u, at.point.parameter);
     const Junction& origin = agenda_.points[*from.origin];

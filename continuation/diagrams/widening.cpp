@@ -153,7 +153,7 @@ std::variant<Junction, NotWidened> WiderBranchPoints::refine(const Vector& from,
     return 1 / right.dot(solution);
   };
   for (int k = 0; k < options_.bisections; ++k) {
-    if (!place(0.5 * (a + b))) break;
+    if (!place(0.5 * (a + b))) return NotWidened::not_evaluated;
     smallest(D_, norm, options_.sweeps, lu_, left, right);
     const double at_a = value(a), at_b = value(b);
     if (at_a * at_b < 0) {
@@ -167,7 +167,7 @@ std::variant<Junction, NotWidened> WiderBranchPoints::refine(const Vector& from,
       }
     }
     const double middle = 0.5 * (a + b);
-    if (!place(middle)) break;
+    if (!place(middle)) return NotWidened::not_evaluated;
     const Vector there = v;
     const int sign = sign_at(there);
     (sign == sign_a ? a : b) = middle;

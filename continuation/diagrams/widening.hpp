@@ -51,7 +51,8 @@ struct WideningOptions {
 enum class NotWidened {
   no_crossing,    // det D keeps its sign around the event
   several_cross,  // D loses two ranks or more at once, as in symmetric structures
-  jumps  // D jumps there, between two smooth pieces: the branch that leaves has no tangent of its own
+  jumps,         // D jumps there, between two smooth pieces: the branch that leaves has no tangent of its own
+  not_evaluated  // where it crosses, no solution of F was found, or G could not be evaluated
 };
 
 /// The branch points at which a branch of F meets those of G.

@@ -42,10 +42,10 @@ class LU {
   std::unique_ptr<Decomposition> lu_;
 };
 
-/// LU with partial pivoting in place: A, n x n by columns, becomes L, whose diagonal of ones is not stored, and
-/// U; row i of L U is row order[i] of A. order, work: n. A singular A gives a zero pivot, and one that is not
-/// finite a pivot that is not. Does not allocate. Below 100 rows four columns are eliminated at once, so that
-/// what is left is read and written a fourth as often; from there on by LAPACK.
+/// LU with partial pivoting in place: A, n x n by columns, becomes L, whose diagonal of ones is not stored,
+/// and U; row i of L U is row order[i] of A. order, work: n. A singular A gives a zero pivot, and one that is
+/// not finite a pivot that is not. Does not allocate. Below 100 rows four columns are eliminated at once, so
+/// that what is left is read and written a fourth as often; from there on by LAPACK.
 void factorize_in_place(Eigen::Index n, double* A, int* order, int* work);
 
 extern template class LU<double>;
@@ -142,6 +142,10 @@ Eigen::VectorXcd eigenvalues(const Matrix& A);
 /// The finite eigenvalues mu of A v = mu B v, B general and possibly singular, by QZ. Those beyond 1e7 |A| /
 /// |B| count as infinite.
 Eigen::VectorXcd finite_eigenvalues(const Matrix& A, const Matrix& B);
+
+/// Y of the Lyapunov equation T Y + Y T^T + C C^T = 0, by the complex Schur form of T (R. H. Bartels, G. W.
+/// Stewart, Comm. ACM 15, 1972). Sums of two eigenvalues that are 0 to rounding count as that rounding.
+Matrix lyapunov_solution(const Matrix& T, const Matrix& C);
 
 /// Eigenvalues of matrices of one size, balanced; no allocation after the first.
 class Eigenvalues {

@@ -103,6 +103,25 @@ Eigen::VectorXcd finite_eigenvalues(const Matrix& A, const Matrix& B) {
   return Eigen::Map<const Eigen::VectorXcd>(finite.data(), static_cast<Eigen::Index>(finite.size()));
 }
 
+Matrix lyapunov_solution(const Matrix& T, const Matrix& C) {
+  const Eigen::ComplexSchur<Matrix> schur(T);
+  if (schur.info() != Eigen::Success) return {};
+  const Eigen::MatrixXcd &U = schur.matrixU(), &R = schur.matrixT();
+  const Eigen::MatrixXcd D = U.adjoint() * C;
+  const double rounding = 2.2e-16 * T.norm();
+  Eigen::MatrixXcd Y = -D * D.adjoint();  // of R Y + Y R^H = Y, from the last column on
+  for (Eigen::Index j = T.rows() - 1; j >= 0; --j) {
+    Eigen::MatrixXcd shifted = R;
+    for (auto& each : shifted.diagonal()) {
+      each += std::conj(R(j, j));
+      if (std::abs(each) < rounding) each = rounding;
+    }
+    shifted.triangularView<Eigen::Upper>().solveInPlace(Y.col(j));
+    Y.leftCols(j).noalias() -= Y.col(j) * R.col(j).head(j).adjoint();
+  }
+  return (U * Y * U.adjoint()).real();
+}
+
 struct Eigenvalues::Decomposition {
   Eigen::EigenSolver<Matrix> of;
   Matrix balanced;

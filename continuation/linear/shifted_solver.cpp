@@ -43,7 +43,7 @@ ComplexSparseLU::Matrix bordered(const SparseMatrix& J, Complex shift, const Com
 
 }  // namespace
 
-ShiftedSolver::ShiftedSolver(const Jacobian& J) {
+ShiftedSolver::ShiftedSolver(const Jacobian& J, double relative_error) : relative_error_(relative_error) {
   if (const auto* full = std::get_if<Matrix>(&J)) {
     balanced_ = *full;
     balance(balanced_, D_);
@@ -128,6 +128,12 @@ ComplexVector ShiftedSolver::apply(const ComplexVector& x) const {
   z.real() = balanced_ * y.real();
   z.imag() = balanced_ * y.imag();
   return z.cwiseProduct(D_.cast<Complex>());
+}
+
+Vector ShiftedSolver::error_of_apply(const ComplexVector& x) const {
+  const Vector sizes = x.cwiseAbs();
+  if (!dense_) return relative_error_ * (sparse_.cwiseAbs() * sizes);
+  return relative_error_ * (balanced_.cwiseAbs() * sizes.cwiseQuotient(D_)).cwiseProduct(D_);
 }
 
 // In the balanced coordinates D^-1 v, D w, whose borders are D^-1 b = D w and D c = D^-1 v.

@@ -19,10 +19,13 @@ namespace arcslip::continuation {
 using Complex = std::complex<double>;
 using ComplexVector = Eigen::VectorXcd;
 
+/// Relative error of the entries of an exact J.
+inline constexpr double rounding_of_jacobian = 1e-14;
+
 class ShiftedSolver {
  public:
-  /// J is copied. Throws std::invalid_argument for an operator.
-  explicit ShiftedSolver(const Jacobian& J);
+  /// J is copied. relative_error: of its entries. Throws std::invalid_argument for an operator.
+  explicit ShiftedSolver(const Jacobian& J, double relative_error = rounding_of_jacobian);
 
   /// False: singular to the last bit.
   bool factorize(Complex shift);
@@ -34,7 +37,8 @@ class ShiftedSolver {
   /// The same with the conjugate transposed matrix.
   bool solve_adjoint(ComplexVector& x) const;
 
-  ComplexVector apply(const ComplexVector& x) const;  // J x
+  ComplexVector apply(const ComplexVector& x) const;    // J x
+  Vector error_of_apply(const ComplexVector& x) const;  // of J x by that of J
   Eigen::Index size() const { return n_; }
   const Vector& scales() const { return D_; }  // of the unknowns, by which J is balanced
 
@@ -43,6 +47,7 @@ class ShiftedSolver {
   bool factorize_sparse(Complex shift, const ComplexVector* b, const ComplexVector* c);
 
   Eigen::Index n_ = 0;
+  double relative_error_;
   bool dense_ = true;
   Matrix balanced_;
   Vector D_;  // balanced = D^-1 J D

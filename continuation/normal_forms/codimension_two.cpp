@@ -36,7 +36,7 @@ class HomologicalEquations {
  public:
   HomologicalEquations(Evaluator& at, const PlaceOfForms& place) : forms_(at, place), n_(place.u.size()) {
     J_ = dense_jacobian(forms_);
-    if (J_) solver_.emplace(*J_);
+    if (J_) solver_.emplace(*J_, forms_.error_of_jacobian());
   }
 
   std::optional<Eigenpair> pair_near(Complex value) {
@@ -125,31 +125,38 @@ Cusp cusp_form(Evaluator& at, const PlaceOfForms& place, const Vector& right, co
   return {};
 }
 
-Hopf hopf_form_near(Evaluator& at, const PlaceOfForms& place, double frequency) try {
-  DirectionalDerivatives forms(at, place);
-  auto J = dense_jacobian(forms);
-  if (!J) return {};
-  const Jacobian J_at_place = std::move(*J);
-  ShiftedSolver solver(J_at_place);
-  const auto pair = nearest_eigenpair(std::get<Matrix>(J_at_place), solver, Complex(0, frequency));
+namespace {
+
+struct HopfWithPair {
+  Hopf hopf;
+  std::optional<Eigenpair> pair;
+};
+
+HopfWithPair hopf_with_pair(Evaluator& at, const PlaceOfForms& place, double frequency) try {
+  HomologicalEquations equations(at, place);
+  const auto pair = equations.pair_near(Complex(0, frequency));
   if (!pair) return {};
   Hopf hopf;
   hopf.frequency = pair->value.imag();
   hopf.real = pair->right.real();
   hopf.imaginary = pair->right.imag();
-  add_normal_form(at, place, hopf, &J_at_place);
-  return hopf;
+  const Jacobian J = equations.J();
+  add_normal_form(at, place, hopf, &J);
+  return {std::move(hopf), pair};
 } catch (const std::exception&) {
   return {};
 }
 
+}  // namespace
+
+Hopf hopf_form_near(Evaluator& at, const PlaceOfForms& place, double frequency) {
+  return hopf_with_pair(at, place, frequency).hopf;
+}
+
 GeneralizedHopf generalized_hopf_form(Evaluator& at, const PlaceOfForms& place, double frequency) {
-  const Hopf hopf = hopf_form_near(at, place, frequency);
+  const auto [hopf, pair] = hopf_with_pair(at, place, frequency);
   GeneralizedHopf form{frequency, hopf.lyapunov, hopf.detuning};
-  if (!hopf.lyapunov.known()) return form;
-  HomologicalEquations equations(at, place);
-  if (const auto pair = equations.usable() ? equations.pair_near(Complex(0, frequency)) : std::nullopt)
-    form.second_lyapunov = second_lyapunov(at, place, *pair);
+  if (hopf.lyapunov.known()) form.second_lyapunov = second_lyapunov(at, place, *pair);
   return form;
 }
 

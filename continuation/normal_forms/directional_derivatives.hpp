@@ -18,6 +18,7 @@
 //    4 D^2 a b   = D^2 (a + b)^2 - D^2 (a - b)^2
 //   24 D^3 a b c = D^3 (a + b + c)^3 - D^3 (a + b - c)^3 - D^3 (a - b + c)^3 + D^3 (a - b - c)^3.
 
+#include <arcslip/continuation/linear/shifted_solver.hpp>
 #include <arcslip/continuation/problem/extrapolation.hpp>
 #include <arcslip/continuation/problem/problem.hpp>
 
@@ -61,6 +62,8 @@ class DirectionalDerivatives {
   /// J at the place: the problem's, or, where that consists of differences, extrapolated ones. Nothing for an
   /// operator.
   std::optional<Jacobian> jacobian();
+  /// Of its entries, relative: rounding, or what the extrapolation estimates.
+  double error_of_jacobian() const { return error_of_jacobian_; }
   /// F_p of the free parameter, the same way.
   RealForm parameter_derivative();
 
@@ -76,6 +79,7 @@ class DirectionalDerivatives {
   Eigen::Index n_;
   std::uint64_t piece_ = 0;
   bool usable_ = false;
+  double error_of_jacobian_ = rounding_of_jacobian;
   Vector sizes_, u_, p_, dF_;
 };
 

@@ -21,7 +21,7 @@ class HopfForm {
   bool compute(Hopf& hopf, const Jacobian* known = nullptr) {
     const auto J = known ? std::nullopt : forms_.jacobian();
     if (!known && !J) return false;
-    ShiftedSolver solver(known ? *known : *J);
+    ShiftedSolver solver(known ? *known : *J, forms_.error_of_jacobian());
     const ComplexVector z = hopf.real.cast<Complex>() + Complex(0, 1) * hopf.imaginary.cast<Complex>();
     const auto pair = refined_eigenpair(solver, Complex(0, hopf.frequency), z);
     if (!pair) return false;

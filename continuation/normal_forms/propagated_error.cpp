@@ -20,9 +20,11 @@ void PropagatedError::add(double weight, const ComplexForm& form, double relativ
 ComplexForm solved(const ShiftedSolver& factors, const ComplexForm& b) {
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   ComplexForm x{b.value, Vector::Constant(b.error.size(), unknown)};
+  if (!factors.solve(x.value)) return x;
   ComplexVector errors = b.error.cast<Complex>();
+  errors.head(factors.size()) += factors.error_of_apply(x.value.head(factors.size())).cast<Complex>();
   for (Eigen::Index i = 0; i < errors.size(); ++i) errors[i] *= std::polar(1.0, static_cast<double>(i * i));
-  if (factors.solve(x.value) && factors.solve(errors)) x.error = worse_than_generic * errors.cwiseAbs();
+  if (factors.solve(errors)) x.error = worse_than_generic * errors.cwiseAbs();
   return x;
 }
 

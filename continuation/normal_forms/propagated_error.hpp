@@ -24,7 +24,7 @@ class PropagatedError {
   double error_ = 0;
 };
 
-/// x = A^-1 b of the last factors, with the errors that those of b make of it.
+/// x = A^-1 b of the last factors, with the errors that those of b and of J make of it.
 ComplexForm solved(const ShiftedSolver& factors, const ComplexForm& b);
 
 /// The largest error of a row, relative to the largest row.

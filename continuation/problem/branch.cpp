@@ -61,6 +61,8 @@ const char* name(StopReason reason) {
       return "monitor_failed";
     case StopReason::wrong_jacobian:
       return "wrong_jacobian";
+    case StopReason::known_branch:
+      return "known_branch";
   }
   return "unknown";
 }

@@ -185,6 +185,7 @@ struct Event {
 ///                    an exception, which the message quotes. value is the last step tried, limit the smallest.
 ///   monitor_failed   a function of a monitor threw: the message names the monitor and quotes the exception. value is
 ///                    the parameter.
+///   known_branch     the branch met another one that was traced before: of a diagram only.
 ///   wrong_jacobian   the branch cannot be continued, and an entry of J or dF/dp, named by the message, is wrong: value
 ///                    is the relative error of the entry, limit the tolerance.
 // clang-format on
@@ -201,7 +202,8 @@ enum class StopReason {
   user,
   not_evaluated,
   monitor_failed,
-  wrong_jacobian
+  wrong_jacobian,
+  known_branch
 };
 
 const char* name(StopReason reason);

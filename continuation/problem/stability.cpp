@@ -31,6 +31,7 @@ void check(const StabilityOptions& o, int n) {
                     "at least one more than stability.frequencies");
   require_stability(o.largest_frequency >= 0 && std::isfinite(o.largest_frequency), "largest_frequency",
                     o.largest_frequency, ">= 0");
+  require_stability(o.lyapunov_space >= 8, "lyapunov_space", o.lyapunov_space, ">= 8");
   for (const double w : o.frequencies)
     require_stability(w >= 0 && std::isfinite(w), "frequencies", w, ">= 0");
 }

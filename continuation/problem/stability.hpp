@@ -9,7 +9,8 @@
 //
 // J dense or sparse of up to `dense` unknowns: all eigenvalues, by QR, or QZ with M. A larger one that is
 // symmetric, without M: the number of positive ones, by the inertia of L D L^T. Any other: those next to the
-// imaginary axis, by Arnoldi's method for (J - i w M)^-1 M with shifts i w.
+// imaginary axis, by Arnoldi's method for (J - i w M)^-1 M with shifts i w, and, as a second opinion on
+// request, the one that is nearest to the axis at whatever frequency, by Lyapunov inverse iteration.
 
 #include <arcslip/continuation/problem/problem.hpp>
 
@@ -29,11 +30,14 @@ struct AxisRange {
 
 /// Eigenvalues at a point. Those on the imaginary axis, as at an event, are counted by rounding.
 struct Spectrum {
-  std::vector<std::complex<double>> leading;  // by decreasing real part; of a pair that with a positive
-                                              // imaginary part comes first. Empty: only counted
-  int unstable = 0;                   // with a positive real part: of those found
-  bool complete = false;              // `unstable` is their number. False: those found
-  std::vector<AxisRange> found_near;  // where eigenvalues were looked for; all of it if complete
+  std::vector<std::complex<double>> leading;      // by decreasing real part; of a pair that with a positive
+                                                  // imaginary part comes first. Empty: only counted
+  int unstable = 0;                               // with a positive real part: of those found
+  bool complete = false;                          // `unstable` is their number. False: those found
+  std::vector<AxisRange> found_near;              // where eigenvalues were looked for; all of it if complete
+  std::optional<std::complex<double>> nearest{};  // to the imaginary axis, Im >= 0, by the second opinion,
+                                                  // among those counted. None: not asked for, or it does not
+                                                  // converge, as where many are equally far from the axis
 };
 
 /// Which points have a spectrum. automatic: all, up to StabilityOptions::every_point unknowns; beyond, the
@@ -60,6 +64,12 @@ struct StabilityOptions {
   int shifts = 8;           // at most, each with a factorization or two: every further one goes twice as far
   double largest_frequency = 0;  // w beyond which nothing is looked for, rad per time; 0: as far as shifts go
   std::vector<double> frequencies{};  // w of the first shifts, >= 0, besides 0
+
+  // Lyapunov inverse iteration (K. Meerbergen, A. Spence, SIAM J. Matrix Anal. Appl. 31, 2010), of which no
+  // frequency has to be known: a second opinion where eigenvalues are found by shifts. It costs some ten
+  // complex factorizations more at each point that has a spectrum.
+  bool second_opinion = false;
+  int lyapunov_space = 80;  // vectors kept, >= 8: more cost memory, fewer more iterations
 
   EigenSolver solver{};
 };

@@ -1,7 +1,7 @@
 #include <arcslip/continuation/stability/spectrum_finder.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
-#include <arcslip/continuation/linear/sparse_algebra.hpp>
+#include <arcslip/continuation/stability/shifted_inverse.hpp>
 
 #include <Spectra/GenEigsComplexShiftSolver.h>
 #include <Eigen/SparseCholesky>
@@ -21,67 +21,29 @@ namespace {
 //   nu = (1 / (mu - i w) + 1 / (mu + i w)) / 2 = mu / (mu^2 + w^2),
 //
 // so that the largest |nu| belong to the mu next to +- i w; infinite mu, of a singular M, have nu = 0. They
-// converge first: where the smallest one found is nu_k, none is expected to be missed for which |nu| > nu_k,
-// as on the axis between
+// converge first: where the smallest one found is nu_k, and all larger ones that were wanted have converged,
+// none is expected to be missed for which |nu| > nu_k, as on the axis between
 //
 //   (-+ 1 / nu_k + sqrt(1 / nu_k^2 + 4 w^2)) / 2.
 
-constexpr double real_to_rounding = 1e-9;  // imaginary part of a real eigenvalue, relative
-
-// x -> Re((J - s M)^-1 M x), as Spectra asks for it.
-class ShiftedInverse {
- public:
-  using Scalar = double;
-
-  ShiftedInverse(const SparseMatrix& J, const SparseMatrix* M)
-      : J_(J.cast<std::complex<double>>()), M_(J.rows(), J.rows()) {
-    if (M)
-      M_ = M->cast<std::complex<double>>();
-    else
-      M_.setIdentity();
-    matrix_ = J_ - std::complex<double>(1, 1) * M_;  // of the pattern of both
-    matrix_.makeCompressed();
-    lu_.emplace(matrix_);
-  }
-
-  Eigen::Index rows() const { return J_.rows(); }
-  Eigen::Index cols() const { return J_.rows(); }
-
-  void set_shift(double real, double imaginary) {
-    matrix_ = J_ - std::complex<double>(real, imaginary) * M_;
-    matrix_.makeCompressed();
-    if (!lu_->factorize(matrix_, 0)) throw std::runtime_error("the shift is an eigenvalue");
-  }
-
-  void perform_op(const double* in, double* out) const {
-    Eigen::MatrixXcd x = M_ * Eigen::Map<const Vector>(in, rows()).cast<std::complex<double>>();
-    lu_->solve_in_place(x);
-    Eigen::Map<Vector>(out, rows()) = x.col(0).real();
-  }
-
-  // |J v - mu M v|, relative to its terms.
-  double residual(std::complex<double> mu, const Eigen::VectorXcd& v) const {
-    const Eigen::VectorXcd Jv = J_ * v, Mv = M_ * v;
-    return (Jv - mu * Mv).norm() / (Jv.norm() + std::abs(mu) * Mv.norm());
-  }
-
-  // nu is stationary at mu = -w, so that mu has half of its digits there: the Rayleigh quotient may have
-  // more.
-  std::complex<double> better(std::complex<double> mu, const Eigen::VectorXcd& v) const {
-    const std::complex<double> quotient = v.dot(J_ * v) / v.dot(M_ * v);
-    const std::complex<double> found = residual(quotient, v) < residual(mu, v) ? quotient : mu;
-    return std::abs(found.imag()) < real_to_rounding * std::abs(found) ? found.real() : found;
-  }
-
- private:
-  ComplexSparseLU::Matrix J_, M_, matrix_;
-  std::optional<ComplexSparseLU> lu_;
-};
+double size_of_nu(std::complex<double> mu, double w) {
+  return std::abs(mu / (mu * mu + w * w));
+}
 
 AxisRange range_of(double w, double least) {
   const double reach = 1 / least, middle = std::sqrt(reach * reach + 4 * w * w);
   return {std::max(0.0, (middle - reach) / 2), (middle + reach) / 2};
 }
+
+// Spectra's solver, with the mu that it wanted, in their order, whether they have converged or not.
+class AxisArnoldi : public Spectra::GenEigsComplexShiftSolver<ShiftedInverse> {
+ public:
+  using GenEigsComplexShiftSolver::GenEigsComplexShiftSolver;
+  Eigen::VectorXcd wanted() const { return this->Base::m_ritz_val.head(this->Base::m_nev); }
+
+ private:
+  using Base = Spectra::GenEigsBase<ShiftedInverse, Spectra::IdentityBOp>;
+};
 
 struct NearEigenvalues {
   std::vector<std::complex<double>> values;
@@ -97,7 +59,7 @@ NearEigenvalues eigenvalues_near(const SparseMatrix& J, const SparseMatrix* M, d
   const Eigen::Index n = J.rows(), wanted = std::min<Eigen::Index>(options.near_shift, n - 2),
                      krylov = std::min<Eigen::Index>(options.krylov, n);
   ShiftedInverse inverse(J, M);
-  Spectra::GenEigsComplexShiftSolver<ShiftedInverse> solver(inverse, wanted, krylov, 0, w);
+  AxisArnoldi solver(inverse, wanted, krylov, 0, w);
   if (start.size() == n && start.norm() > 0)
     solver.init(start.data());
   else
@@ -105,15 +67,22 @@ NearEigenvalues eigenvalues_near(const SparseMatrix& J, const SparseMatrix* M, d
   solver.compute(Spectra::SortRule::LargestMagn, options.restarts, options.tolerance);
   const Eigen::VectorXcd values = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
-  double least = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity(), missed = 0;
   found.start = Eigen::VectorXd::Zero(n);
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    const std::complex<double> mu = inverse.better(values[i], vectors.col(i));
-    if (!(inverse.residual(mu, vectors.col(i)) <= std::sqrt(options.tolerance))) continue;
-    found.values.push_back(mu);
-    found.start += vectors.col(i).real();
-    least = std::min(least, std::abs(mu / (mu * mu + w * w)));
+  Eigen::Index i = 0;  // of those that have converged
+  for (const std::complex<double>& each : solver.wanted()) {
+    const bool has_converged = i < values.size() && each == values[i];
+    const std::complex<double> mu = has_converged ? inverse.better(each, vectors.col(i)) : each;
+    if (has_converged && inverse.residual(mu, vectors.col(i)) <= std::sqrt(options.tolerance)) {
+      found.values.push_back(mu);
+      found.start += vectors.col(i).real();
+      least = std::min(least, size_of_nu(mu, w));
+    } else {
+      missed = std::max(missed, size_of_nu(mu, w));
+    }
+    if (has_converged) ++i;
   }
+  least = std::max(least, missed);
   if (least > 0 && std::isfinite(least)) found.range = range_of(w, least);
   return found;
 } catch (const std::exception&) {  // as it says
@@ -141,6 +110,12 @@ std::vector<AxisRange> joined(std::vector<AxisRange> ranges) {
     else
       all.push_back(each);
   return all;
+}
+
+bool is_among(const std::vector<std::complex<double>>& all, std::complex<double> value) {
+  return std::any_of(all.begin(), all.end(), [&](const auto& other) {
+    return std::abs(value - other) <= same_eigenvalue * std::abs(other);
+  });
 }
 
 }  // namespace
@@ -210,12 +185,8 @@ std::optional<Spectrum> SpectrumFinder::by_inertia(const SparseMatrix& J) {
 
 void SpectrumFinder::look_near(const SparseMatrix& J, Shift& shift, Spectrum& found) {
   NearEigenvalues near = eigenvalues_near(J, options_.mass.get(), shift.w, options_, shift.start);
-  for (const auto& value : near.values) {
-    const bool known = std::any_of(found.leading.begin(), found.leading.end(), [&](const auto& other) {
-      return std::abs(value - other) <= same_eigenvalue * std::abs(other);
-    });
-    if (!known) found.leading.push_back(value);
-  }
+  for (const auto& value : near.values)
+    if (!is_among(found.leading, value)) found.leading.push_back(value);
   if (near.range.upper > near.range.lower) found.found_near.push_back(near.range);
   shift.start = std::move(near.start);
 }
@@ -228,6 +199,20 @@ std::optional<double> SpectrumFinder::next_shift(const std::vector<AxisRange>& r
   if (bound > 0 && end >= bound) return {};
   if (ranges.size() > 1) return (end + ranges[1].lower) / 2;
   return bound > 0 ? std::min(next_shift_ratio * end, bound) : next_shift_ratio * end;
+}
+
+// What the shifts have missed is found once more by a shift next to it, with its neighbours.
+void SpectrumFinder::look_at_any_frequency(const SparseMatrix& J, Spectrum& found) {
+  auto nearest = nearest_to_axis(J, options_.mass.get(), options_, nearest_vector_);
+  nearest_vector_ = nearest ? std::move(nearest->vector) : Eigen::VectorXcd();
+  if (!nearest) return;
+  found.nearest = nearest->value;
+  if (is_among(found.leading, nearest->value)) return;
+  missed_.w = nearest->value.imag();
+  look_near(J, missed_, found);
+  found.found_near = joined(std::move(found.found_near));
+  for (const auto& each : {nearest->value, std::conj(nearest->value)})
+    if (!is_among(found.leading, each)) found.leading.push_back(each);
 }
 
 Spectrum SpectrumFinder::by_shifts(const SparseMatrix& J) {
@@ -245,6 +230,7 @@ Spectrum SpectrumFinder::by_shifts(const SparseMatrix& J) {
     look_near(J, shifts_.back(), found);
     found.found_near = joined(std::move(found.found_near));
   }
+  if (options_.second_opinion) look_at_any_frequency(J, found);
   found.unstable = static_cast<int>(std::count_if(found.leading.begin(), found.leading.end(),
                                                   [](const auto& each) { return each.real() > 0; }));
   sort(found);

@@ -33,11 +33,14 @@ class SpectrumFinder {
   std::optional<Spectrum> by_inertia(const SparseMatrix& J);
   Spectrum by_shifts(const SparseMatrix& J);
   void look_near(const SparseMatrix& J, Shift& shift, Spectrum& found);
+  void look_at_any_frequency(const SparseMatrix& J, Spectrum& found);
   std::optional<double> next_shift(const std::vector<AxisRange>& ranges) const;
   void sort(Spectrum& found) const;
 
   StabilityOptions options_;
   std::vector<Shift> shifts_;
+  Shift missed_;  // next to what they missed at the last point where they did
+  Eigen::VectorXcd nearest_vector_;
   Spectrum before_;
   bool has_before_ = false;
 };

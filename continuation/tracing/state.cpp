@@ -212,6 +212,7 @@ void fields_of_state(auto& visit, auto& x) {
   }
   newer_field(visit, "curve_error", x.curve_error), newer_field(visit, "expected", x.expected);
   newer_field(visit, "transverse", x.transverse), newer_field(visit, "accepted", x.accepted);
+  newer_field(visit, "left_at_start", x.left_at_start);
 }
 
 template <class Visit>
@@ -223,7 +224,7 @@ void fields(Visit&& visit, auto& x) {
     newer_field(visit, "spectrum", x.spectrum), newer_field(visit, "state", x.state);
   } else if constexpr (is<T, Spectrum>) {
     visit("leading", x.leading), visit("unstable", x.unstable), visit("complete", x.complete);
-    visit("found_near", x.found_near);
+    visit("found_near", x.found_near), newer_field(visit, "nearest", x.nearest);
   } else if constexpr (is<T, AxisRange>) {
     visit("lower", x.lower), visit("upper", x.upper);
   } else if constexpr (is<T, Coefficient>) {

@@ -35,6 +35,7 @@ struct State {
   CurvePoint start;  // the first point
   CurvePoint here, before;
   Vector accepted;          // state of the problem that `here` left
+  Vector left_at_start{};   // that of the first point
   bool has_before = false;  // so that the cubic predictor applies
   bool begun = false, ended = false;
   double step = 0, last_step = 0;  // to try next; from `before` to `here`

@@ -21,6 +21,7 @@ constexpr double parameter_rounding = 1e-9;    // relative changes of p below th
 constexpr double kink_turn = 0.7, kink_step = 0.25;
 constexpr double endless_tail = 1e-12;  // of the parameter's scale: end this close to an unreached bound
 constexpr double tail_before = 1e-9;    // with its last point this close
+constexpr double same_state = 1e-6;     // change of the state of a problem over a closed loop, relative
 constexpr double been_away = 3;  // roundings of the distance from the start: closer, it has not returned
 constexpr long first_looked_at = 3, each_looked_at = 16;  // of points accepted by an expected error
 constexpr double large_contraction = 0.1;
@@ -333,7 +334,7 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::close_loop() {
     main_.border_row(s_.start.tangent, row_);
     const bool converged = main_.correct(v_, row_, false).converged;
     const double miss = distance(main_, v_, s_.start.v);
-    if (converged && miss <= rounding) {
+    if (converged && miss <= rounding && leaves_the_state_of_the_start()) {
       place = s_.start;
       place.arclength = s_.here.arclength + distance(main_, s_.here.v, place.v);
       if (accept()) end(StopReason::closed, miss, rounding, "returned to the start: the branch is closed");
@@ -345,7 +346,7 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::close_loop() {
   for (std::size_t k = 0; k < trial_.corners.size() && s_.here.arclength > 0; ++k) {
     const CurvePoint& at = trial_.corners[k].before;
     const double miss = distance(main_, at.v, s_.start.v);
-    if (miss > rounding || at.arclength < been_away * rounding) continue;
+    if (miss > rounding || at.arclength < been_away * rounding || !leaves_the_state_of_the_start()) continue;
     place = s_.start;
     place.arclength = at.arclength;
     trial_.corners.resize(k);
@@ -354,6 +355,14 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::close_loop() {
     return Outcome::ended;
   }
   return {};
+}
+
+// Whether the branch would be the same once more. One of a problem with a state may be back at its start on
+// another path.
+bool Tracer::Impl::leaves_the_state_of_the_start() {
+  if (s_.accepted.size() == 0) return true;
+  return main_.next_state(s_.start.v, next_state_) &&
+         (next_state_ - s_.left_at_start).norm() <= same_state * s_.left_at_start.norm();
 }
 
 bool Tracer::Impl::accept() {
@@ -388,6 +397,7 @@ bool Tracer::Impl::accept_state() {
     return end(StopReason::not_evaluated, s_.here.v[n_], 0,
                "the state that the point at " + text(s_.here.v[n_]) + " leaves could not be computed" +
                    because(main_.failure()));
+  if (s_.left_at_start.size() == 0) s_.left_at_start = next_state_;
   s_.accepted = next_state_;
   main_.set_state(s_.accepted);
   events_.set_state(s_.accepted);

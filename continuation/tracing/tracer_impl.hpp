@@ -72,6 +72,7 @@ class Tracer::Impl {
   std::optional<Outcome> close_loop();
   bool accept();
   bool accept_state();
+  bool leaves_the_state_of_the_start();
 
   bool corner();  // tracer_corners.cpp
   bool step_beyond_corner();

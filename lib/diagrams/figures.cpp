@@ -67,10 +67,9 @@ FigureData data_of(const std::vector<BranchPart>& parts, const Columns& columns)
     line.heading = line.label;
     const bool has_unknowns = !part.branch->points.empty() && part.branch->points.front().u.size() > 0;
     if (has_unknowns) add_curve(part, columns, line);
-    const std::vector<std::string> labels = labels_of(*part.branch);
-    for (std::size_t e = 0; e < labels.size(); ++e)
+    for (std::size_t e = 0; e < part.labels.size(); ++e)
       if (const Event& event = part.branch->events[e]; event.point.u.size() > 0)
-        line.marks.push_back({kind_of(event), record_of(event.point, columns), labels[e]});
+        line.marks.push_back({kind_of(event), record_of(event.point, columns), part.labels[e]});
     data.lines.push_back(std::move(line));
   }
   for (std::size_t c = 0; c < data.columns.size(); ++c) data.columns[c].range = results::full_range(data, c);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -27,40 +28,68 @@ constexpr std::array<EventKind, std::variant_size_v<continuation::EventData>> ki
      {"zero_hopf", "zero-Hopf point", {Shape::inverted_triangle, 1, 1.5}},
      {"double_hopf", "double Hopf point", {Shape::pentagon, 1, 1.5}}}};
 
+std::string words_of(const continuation::Event& event) {
+  const EventKind& kind = kind_of(event);
+  return &kind == &kinds.front() ? event.monitor : std::string(kind.words);
+}
+
+constexpr double same_branch_point = 1e-4;  // relative: well above what places of one branch point scatter by
+
+// The number of the branch point of a diagram that an event is, from 1; 0: none.
+int number_of(const continuation::Event& event, const std::vector<continuation::Junction>& branch_points) {
+  if (!std::holds_alternative<continuation::BranchPoint>(event.data)) return 0;
+  const Point& at = event.point;
+  int nearest = 0;
+  double least = same_branch_point * (1 + at.u.norm() + std::abs(at.parameter));
+  for (std::size_t k = 0; k < branch_points.size(); ++k) {
+    const double distance =
+        (branch_points[k].u - at.u).norm() + std::abs(branch_points[k].parameter - at.parameter);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = static_cast<int>(k) + 1;
+  }
+  return nearest;
+}
+
+std::vector<BranchPart> labelled(std::vector<BranchPart> parts,
+                                 const std::vector<continuation::Junction>& branch_points = {}) {
+  std::map<std::string, int> all, so_far;
+  for (const BranchPart& part : parts)
+    for (const continuation::Event& event : part.branch->events)
+      if (number_of(event, branch_points) == 0) ++all[words_of(event)];
+  for (BranchPart& part : parts)
+    for (const continuation::Event& event : part.branch->events) {
+      std::string& label = part.labels.emplace_back(words_of(event));
+      if (const int number = number_of(event, branch_points); number > 0) {
+        if (branch_points.size() > 1) label += " " + std::to_string(number);
+      } else if (all[label] > 1) {
+        label += " " + std::to_string(++so_far[label]);
+      }
+    }
+  return parts;
+}
+
 }  // namespace
 
 std::vector<BranchPart> parts_of(const Branch& branch) {
-  return {{&branch, nullptr, continuation::stability_ranges(branch)}};
+  return labelled({{&branch, nullptr, continuation::stability_ranges(branch)}});
 }
 
 std::vector<BranchPart> parts_of(const continuation::WholeBranch& branch) {
-  return {{&branch.branch, &branch.begin, continuation::stability_ranges(branch.branch)}};
+  return labelled({{&branch.branch, &branch.begin, continuation::stability_ranges(branch.branch)}});
 }
 
 std::vector<BranchPart> parts_of(const continuation::Diagram& diagram) {
   std::vector<BranchPart> all;
   for (const continuation::DiagramBranch& each : diagram.branches)
     all.push_back({&each.branch, &each.begin, each.stability, each.depth, each.origin});
-  return all;
+  return labelled(std::move(all), diagram.branch_points);
 }
 
 const EventKind& kind_of(const continuation::Event& event) {
   if (event.data.index() > 0) return kinds[event.data.index()];
   const auto* const by_name = std::find(kinds.begin(), kinds.end(), event.monitor);
   return by_name == kinds.end() ? kinds.front() : *by_name;
-}
-
-std::vector<std::string> labels_of(const Branch& branch) {
-  std::vector<std::string> labels;
-  std::map<std::string, int> all, so_far;
-  for (const continuation::Event& event : branch.events) {
-    const EventKind& kind = kind_of(event);
-    labels.push_back(&kind == &kinds.front() ? event.monitor : std::string(kind.words));
-    ++all[labels.back()];
-  }
-  for (std::string& label : labels)
-    if (all[label] > 1) label += " " + std::to_string(++so_far[label]);
-  return labels;
 }
 
 Columns columns_of(const continuation::Problem& problem, int free, std::vector<std::string> names) {

@@ -194,8 +194,10 @@ Object stop_of(const BranchStop& stop) {
 Status status_of(const BranchStop& stop, bool has_points) {
   using enum continuation::StopReason;
   if (!has_points) return Status::failed;
-  return stop.reason == boundary || stop.reason == closed || stop.reason == event ? Status::complete
-                                                                                  : Status::stopped;
+  return stop.reason == boundary || stop.reason == closed || stop.reason == event ||
+                 stop.reason == known_branch
+             ? Status::complete
+             : Status::stopped;
 }
 
 Object work_of(const Branch& branch) {
@@ -213,8 +215,7 @@ results::Result result_of(const BranchPart& part, bool of_diagram, const Columns
   std::vector<PointRow> points;
   for (const Point& point : branch.points) points.push_back({&point});
   std::vector<EventRow> events;
-  const std::vector<std::string> labels = labels_of(branch);
-  for (std::size_t e = 0; e < labels.size(); ++e) events.push_back({&branch.events[e], labels[e]});
+  for (std::size_t e = 0; e < part.labels.size(); ++e) events.push_back({&branch.events[e], part.labels[e]});
   std::vector<RangeRow> ranges;
   for (const auto& range : part.stability)
     ranges.push_back({&range, branch.points[range.first].parameter, branch.points[range.last].parameter});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <stdexcept>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -240,6 +241,12 @@ std::vector<std::string> table_keys(std::span<const Schema> schemas) {
 }
 
 void write_csv(std::ostream& out, const Results& results, const std::string& table) {
+  const std::vector<std::string> keys = table_keys(results.schemas);
+  if (std::find(keys.begin(), keys.end(), table) == keys.end()) {
+    std::string all;
+    for (const std::string& key : keys) all += (all.empty() ? "" : ", ") + key;
+    throw std::invalid_argument("the results have no table \"" + table + "\", but: " + all);
+  }
   CsvWriter writer(out, table);
   replay(results, writer);
 }

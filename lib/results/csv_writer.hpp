@@ -71,6 +71,7 @@ class CsvSummary : public Sink {
 /// Of all tables, each once.
 std::vector<std::string> table_keys(std::span<const Schema> schemas);
 
+/// Throws std::invalid_argument where no schema has the table, with those that they have.
 void write_csv(std::ostream& out, const Results& results, const std::string& table);
 void write_csv_summary(std::ostream& out, const Results& results);
 

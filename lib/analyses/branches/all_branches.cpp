@@ -48,6 +48,7 @@ const char* words(NotWidened why) {
   if (why == NotWidened::jumps)
     return "the stiffness of the contacts jumps there, so that the branch that leaves has no tangent of its "
            "own";
+  if (why == NotWidened::not_evaluated) return "the response could not be computed where it crosses";
   return "no branch of these harmonics crosses there; more harmonics may resolve it";
 }
 

@@ -37,6 +37,7 @@ results::Reason reason_of(continuation::StopReason reason) {
       return reasons::not_evaluated;
     case StopReason::monitor_failed:
       return reasons::monitor_failed;
+    case StopReason::known_branch:  // of a diagram, which responses are not
     case StopReason::wrong_jacobian:
       break;
   }

@@ -158,6 +158,10 @@ TEST_CASE("branches of branches are followed to the depth asked for, and no furt
     REQUIRE(diagram.branches.size() == static_cast<std::size_t>(std::min(depth, 2) + 1));
     CHECK(diagram.branch_points.size() == static_cast<std::size_t>(depth == 0 ? 1 : 2));
     if (depth < 2) CHECK(!all_traced(diagram.branch_points.back()));
+    for (const HalfBranch& half : diagram.branch_points.back().half_branches)
+      CHECK(half.untraced == (half.branch >= 0 ? ""
+                                               : "a branch of it is beyond the depth of the diagram, " +
+                                                     std::to_string(depth)));
     if (depth < 2) continue;
     const DiagramBranch& last = diagram.branches[2];
     CHECK(last.depth == 2);

@@ -7,6 +7,7 @@
 #include <arcslip/continuation/diagrams/widening.hpp>
 
 #include <functional>
+#include <limits>
 
 using namespace problems;
 
@@ -98,6 +99,12 @@ TEST_CASE(
   CHECK(reason([](double u) { return Matrix{(u - 1) * Matrix::Identity(3, 3)}; }, 3) ==
         NotWidened::several_cross);
   CHECK(reason([](double u) { return Matrix{{u < 1 ? -1.0 : 2.0}}; }, 1) == NotWidened::jumps);
+}
+
+TEST_CASE("where the wider problem cannot be evaluated between two points, that is why no branch leaves") {
+  const double hole = std::numeric_limits<double>::quiet_NaN();
+  CHECK(reason([=](double u) { return Matrix{{std::abs(u - 1) < 0.05 ? hole : u - 1}}; }, 1) ==
+        NotWidened::not_evaluated);
 }
 
 TEST_CASE("a problem that widens to one whose Jacobian is no matrix is refused") {

@@ -283,3 +283,23 @@ TEST_CASE("a value that is not finite is found at each place of vectors of each 
       }
   }
 }
+
+TEST_CASE("the solution of a Lyapunov equation is that of its Kronecker system") {
+  std::srand(3);
+  for (const int n : {1, 2, 5, 12}) {
+    const Matrix T = Matrix::Random(n, n) - 1.5 * std::sqrt(n) * Matrix::Identity(n, n),
+                 C = Matrix::Random(n, 2);
+    const Matrix Y = lyapunov_solution(T, C);
+    // (1 x T + T x 1) vec Y = -vec C C^T
+    Matrix K = Matrix::Zero(n * n, n * n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        K.block(i * n, j * n, n, n) += T(i, j) * Matrix::Identity(n, n);
+        if (i == j) K.block(i * n, i * n, n, n) += T;
+      }
+    const Matrix CC = C * C.transpose();
+    const Matrix y = solve(K, -CC.reshaped());
+    CHECK((Y.reshaped() - y.col(0)).norm() < 1e-12 * y.norm());
+    CHECK((T * Y + Y * T.transpose() + CC).norm() < 1e-12 * CC.norm());
+  }
+}

@@ -341,6 +341,42 @@ TEST_CASE("unknowns of sizes from 1e-6 to 1e6 have the normal form of their unit
     }
 }
 
+TEST_CASE(
+    "next to a zero-Hopf point a Lyapunov coefficient is within its error, which grows like the "
+    "coefficient") {
+  // w = (x, y, v): z' = (p + i) z + z v of z = x + i y, and v' = -s v + a |z|^2, with v = a |z|^2 / s on the
+  // centre manifold: l1 = 4 a / (s |T (1, -i, 0)|^2) in the coordinates u = T w.
+  const Matrix T{{1.0, 0.3, -0.7}, {-0.2, 0.9, 0.4}, {0.5, -0.6, 1.3}};
+  const Matrix back = solve(T, Matrix::Identity(3, 3));
+  const double a = -0.7, size = T.col(0).squaredNorm() + T.col(1).squaredNorm();
+  for (const bool exact : {true, false})
+    for (const double s : {1e-1, 1e-3, 1e-5, 1e-6}) {
+      CAPTURE(exact, s);
+      const auto rates = [a, s](const Vector& w, double p) {
+        return Vector{{p * w[0] - w[1] + w[0] * w[2], w[0] + p * w[1] + w[1] * w[2],
+                       -s * w[2] + a * (w[0] * w[0] + w[1] * w[1])}};
+      };
+      Functions f;
+      f.size = 3;
+      f.parameters = {parameter("p", 0)};
+      f.residual = [=](In u, In p, Out F) { F = T * rates(back * u, p[0]); };
+      if (exact)
+        f.jacobian = [=](In u, In p, Eigen::Ref<Matrix> J) {
+          const Vector w = back * u;
+          const Matrix of_w{
+              {p[0] + w[2], -1, w[0]}, {1, p[0] + w[2], w[1]}, {2 * a * w[0], 2 * a * w[1], -s}};
+          J = T * of_w * back;
+        };
+      const auto problem = from_functions(f);
+      const auto at = problem->evaluator();
+      const PlaceOfForms place{Vector::Zero(3), Vector::Zero(1), 0, Vector::Ones(4)};
+      const Hopf hopf = hopf_form_near(*at, place, 1);
+      const double lyapunov = 4 * a / (s * size), error = std::abs(hopf.lyapunov.value - lyapunov);
+      CHECK(error <= hopf.lyapunov.error);
+      CHECK(hopf.lyapunov.error < (exact ? 1e-8 : 1e-3) / (s * s));
+    }
+}
+
 TEST_CASE("without a normal form a Hopf point has none, and no cycles near it") {
   const auto problem = problem_of(textbook_systems()[0], Given::jacobian);
   const Branch branch = trace(problem, {.u = Vector{{1.0, 0.5}}, .p = Vector{{0.5}}}, window(0.5, 4),

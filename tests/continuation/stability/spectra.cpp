@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <random>
 
 using namespace problems;
 
@@ -188,6 +189,11 @@ TEST_CASE("infinite eigenvalues of a singular mass are dropped, in dense and in 
       REQUIRE(found.leading.size() >= 2);
       CHECK(std::abs(found.leading[0] - std::complex<double>(p, 1)) < 1e-8);
       CHECK(std::abs(found.leading[1] - std::complex<double>(p, -1)) < 1e-8);
+      options.second_opinion = true;
+      if (const auto nearest = SpectrumFinder(options).at(sparse(n, entries)).nearest)
+        CHECK(std::abs(*nearest - std::complex<double>(p, 1)) < 1e-8);
+      else
+        CHECK(chain == 0);
       if (chain == 0) {
         CHECK(found.leading.size() == 2);
         CHECK(SpectrumFinder(options).at(Matrix(sparse(n, entries))).leading.size() == 2);
@@ -224,6 +230,113 @@ TEST_CASE("a pair at w = 50 beyond 600 real eigenvalues is found, or reported as
     CHECK(covers(asked, 50));
     CHECK(asked.unstable == found.unstable);
   }
+}
+
+TEST_CASE("the second opinion finds the pair that the shifts have not looked for, at whatever frequency") {
+  for (const double w : {5.0, 50.0, 700.0})
+    for (const double real : {-0.1, -1e-5, 1e-5, 0.1}) {
+      CAPTURE(w, real);
+      const SparseMatrix J = reals_and_pair(600, real, w);
+      StabilityOptions options;
+      options.shifts = 1;
+      options.near_shift = 3;
+      options.krylov = 30;
+      CHECK(SpectrumFinder(options).at(J).unstable == 0);
+      CHECK(!SpectrumFinder(options).at(J).nearest);
+      options.second_opinion = true;
+      SpectrumFinder finder(options);
+      for (int again = 0; again < 2; ++again) {  // begun at random, and with what was found before
+        const Spectrum found = finder.at(J);
+        REQUIRE(found.nearest);
+        CHECK(std::abs(*found.nearest - std::complex<double>(real, w)) < 1e-8 * w);
+        CHECK(found.unstable == (real > 0 ? 2 : 0));
+        CHECK(std::abs(found.leading.at(0) - std::complex<double>(real, w)) < 1e-6 * w);
+        CHECK(std::abs(found.leading.at(1) - std::complex<double>(real, -w)) < 1e-6 * w);
+        CHECK(covers(found, w));
+      }
+    }
+}
+
+TEST_CASE(
+    "the second opinion of the Brusselator on a line is its eigenvalue next to the axis, in closed form") {
+  const Line line{300};
+  const double A = 2;
+  for (const double from_hopf : {-0.3, -0.01, 1e-4, 0.2}) {
+    const double B = line.B(1, A) + from_hopf;
+    CAPTURE(B);
+    // Of mode k: mu^2 - trace mu + determinant = 0.
+    std::complex<double> nearest(-1e9, 0);
+    for (int k = 1; k <= line.nodes; ++k) {
+      const double a = B - 1 - line.d1 * line.wave(k), d = -A * A - line.d2 * line.wave(k);
+      const std::complex<double> root = std::sqrt(std::complex<double>((a - d) * (a - d) / 4 - A * A * B));
+      for (const auto& mu : {(a + d) / 2 + root, (a + d) / 2 - root})
+        if (std::abs(mu.real()) < std::abs(nearest.real())) nearest = {mu.real(), std::abs(mu.imag())};
+    }
+    const auto problem = line.problem();
+    const auto at = problem->evaluator();
+    at->move_to(line.homogeneous(A, B), Vector{{B, A}}, Needs::jacobian);
+    StabilityOptions options;
+    options.second_opinion = true;
+    const Spectrum found = SpectrumFinder(options).at(at->jacobian());
+    REQUIRE(found.nearest);
+    CHECK(std::abs(*found.nearest - nearest) < 1e-8);
+  }
+}
+
+TEST_CASE("without a nearest eigenvalue that converges there is no second opinion") {
+  Entries entries;  // 600 pairs -1 +- i w: all are as near to the axis
+  for (int i = 0; i < 600; ++i) {
+    entries.emplace_back(2 * i, 2 * i, -1.0);
+    entries.emplace_back(2 * i + 1, 2 * i + 1, -1.0);
+    entries.emplace_back(2 * i, 2 * i + 1, -3.0 - i);
+    entries.emplace_back(2 * i + 1, 2 * i, 3.0 + i);
+  }
+  StabilityOptions options;
+  options.second_opinion = true;
+  options.lyapunov_space = 8;
+  const Spectrum found = SpectrumFinder(options).at(sparse(1200, entries));
+  if (found.nearest) CHECK(std::abs(found.nearest->real() + 1) < 1e-6);  // one of them
+  CHECK(found.unstable == 0);
+}
+
+TEST_CASE("near a shift no eigenvalue is missing that is nearer than the range says, converged or not") {
+  // Pairs at random, some equally far from the shift; few restarts, so that some do not converge.
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  int not_all = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const int pairs = 300;
+    std::vector<std::complex<double>> all;
+    Entries entries;
+    for (int i = 0; i < pairs; ++i) {
+      const double w = i < 12 ? 1 + 1e-3 * uniform(random) : 1 + 40 * uniform(random),
+                   real = -0.5 * uniform(random);
+      all.emplace_back(real, w);
+      for (const int k : {0, 1}) entries.emplace_back(2 * i + k, 2 * i + k, real);
+      entries.emplace_back(2 * i, 2 * i + 1, -w);
+      entries.emplace_back(2 * i + 1, 2 * i, w);
+      if (i + 1 < pairs) entries.emplace_back(2 * i, 2 * i + 2, uniform(random));
+    }
+    StabilityOptions options;
+    options.shifts = 1;
+    options.leading = 2 * pairs;
+    options.near_shift = 12;
+    options.krylov = 26;
+    options.restarts = 1 + trial % 3;
+    const Spectrum found = SpectrumFinder(options).at(sparse(2 * pairs, entries));
+    for (const AxisRange& range : found.found_near) {
+      const double least = 1 / range.upper;  // of |nu| = 1 / |mu| next to the shift 0
+      for (const auto& mu : all) {
+        if (1 / std::abs(mu) <= least * (1 + 1e-6)) continue;
+        const bool is_found = std::any_of(found.leading.begin(), found.leading.end(),
+                                          [&](const auto& each) { return std::abs(each - mu) < 1e-3; });
+        CAPTURE(trial, range.upper, mu);
+        CHECK(is_found);
+        not_all += !is_found;
+      }
+    }
+  }
+  CHECK(not_all == 0);
 }
 
 TEST_CASE("of a symmetric Jacobian the number of unstable eigenvalues is exact, by its inertia") {
@@ -328,6 +441,7 @@ TEST_CASE("options of stability that are not valid are refused with their value 
   refused([](auto& o) { o.restarts = 0; }, "stability.restarts is 0");
   refused([](auto& o) { o.tolerance = 0; }, "stability.tolerance is 0");
   refused([](auto& o) { o.shifts = 0; }, "stability.shifts is 0");
+  refused([](auto& o) { o.lyapunov_space = 7; }, "stability.lyapunov_space is 7");
   refused([](auto& o) { o.largest_frequency = -1; }, "stability.largest_frequency is -1");
   refused([](auto& o) { o.frequencies = {std::nan("")}; }, "stability.frequencies is nan");
   refused([](auto& o) { o.mass = std::make_shared<const SparseMatrix>(3, 3); },

@@ -385,6 +385,34 @@ TEST_CASE("a branch ends where the state that a point leaves cannot be computed"
   CHECK(says(undefined.stop.message, "the state is not finite"));
 }
 
+TEST_CASE("a closed curve of a problem whose state has changed on the way is not a closed branch") {
+  // A circle, of which the state counts the points, or the rounds: back at its start, the state is another
+  // one.
+  const auto circle = [](auto&& next) {
+    StateFunctions all;
+    all.initial = Vector::Constant(1, 3);
+    all.functions = [](AcceptedState) {
+      Functions f;
+      f.size = 1;
+      f.parameters = {parameter("p", 0)};
+      f.residual = [](In u, In p, Out F) { F[0] = u[0] * u[0] + p[0] * p[0] - 1; };
+      return f;
+    };
+    all.next = next;
+    return from_functions(all);
+  };
+  Options options{.lower = -2, .upper = 2};
+  options.points = 400;
+  const Start start{.u = Vector{{0.8}}, .p = Vector{{0.6}}};
+  const Branch counted =
+      trace(circle([](In, In, In state, Out next) { next[0] = state[0] + 1; }), start, options);
+  CHECK(counted.stop.reason == StopReason::point_limit);
+  CHECK(counted.points.size() == 400);
+  const Branch same = trace(circle([](In, In, In state, Out next) { next[0] = state[0]; }), start, options);
+  CHECK(same.stop.reason == StopReason::closed);
+  CHECK(same.points.size() < 200);
+}
+
 TEST_CASE("states that do not fit are refused with their sizes, and problems with a state where it is lost") {
   const auto problem = from_functions(counting());
   Start start = at(-1.3, -1);

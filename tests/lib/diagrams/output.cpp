@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <set>
 #include <sstream>
 
 using namespace arcslip;
@@ -194,6 +195,38 @@ TEST_CASE(
                     [](const auto& stretch) { return stretch.unstable; }));
   CHECK(std::any_of(figures[0].texts.begin(), figures[0].texts.end(),
                     [](const auto& text) { return text.text == "branch point"; }));
+}
+
+TEST_CASE(
+    "a branch point has one number in all of a diagram, and other events are counted over all branches") {
+  // u = 0 is left by the parabola at p = 0, which u = 1/2 crosses at p = 1/4.
+  const auto problem = from_functions(
+      1, {{"p", ""}}, [](In u, In p, Out F) { F[0] = u[0] * (u[0] * u[0] - p[0]) * (u[0] - 0.5); });
+  const Diagram diagram = trace_diagram(problem, {.u = Vector::Zero(1), .p = Vector{{-0.9}}},
+                                        Options{.lower = -1, .upper = 1}, {.depth = 2}, {fold_monitor()});
+  const json all = as_json(diagrams::results_of(diagram, diagrams::columns_of(*problem, 0)));
+  int points = 0;
+  std::set<std::string> folds;
+  for (const json& branch : all["branches"])
+    for (const json& event : branch["events"]) {
+      if (event["kind"] == "branch_point") {
+        CHECK(event["label"] ==
+              (std::abs(event["p"].get<double>()) < 0.1 ? "branch point 1" : "branch point 2"));
+        ++points;
+      } else {
+        CHECK(folds.insert(event["label"]).second);
+      }
+    }
+  CHECK(points == 4);
+}
+
+TEST_CASE("a table that results do not have is refused with those that they have") {
+  std::ostringstream out;
+  const auto results = diagrams::results_of(of_pitchfork(), diagrams::columns_of(*pitchfork(), 0));
+  CHECK_THROWS_WITH(
+      results::write_csv(out, results, "branch_points"),
+      "the results have no table \"branch_points\", but: points, events, stability, half_branches");
+  CHECK(out.str().empty());
 }
 
 TEST_CASE(
