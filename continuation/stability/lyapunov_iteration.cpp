@@ -32,7 +32,7 @@ constexpr int most_iterations = 6;
 constexpr double lyapunov_tolerance = 1e-5;  // of the residual, relative to C C^T
 constexpr double dependent = 1e-12;          // what is left of a vector of the space: rounding
 constexpr double infinite_mu = 1e-14;        // of 1 / mu, relative to the largest: below, M is singular
-constexpr double real_pole = 1e-3;  // imaginary part of a pole that is taken as real, relative
+constexpr double real_pole = 1e-3;           // imaginary part of a pole that is taken as real, relative
 
 // A rational Krylov space of S, begun with the real and imaginary part of S x.
 class RationalKrylov {

@@ -3,7 +3,7 @@
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/continuation/stability/shifted_inverse.hpp>
 
-#include <Spectra/GenEigsComplexShiftSolver.h>
+#include <Spectra/GenEigsSolver.h>
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
@@ -26,24 +26,26 @@ namespace {
 //
 //   (-+ 1 / nu_k + sqrt(1 / nu_k^2 + 4 w^2)) / 2.
 
-double size_of_nu(std::complex<double> mu, double w) {
-  return std::abs(mu / (mu * mu + w * w));
-}
-
 AxisRange range_of(double w, double least) {
   const double reach = 1 / least, middle = std::sqrt(reach * reach + 4 * w * w);
   return {std::max(0.0, (middle - reach) / 2), (middle + reach) / 2};
 }
 
-// Spectra's solver, with the mu that it wanted, in their order, whether they have converged or not.
-class AxisArnoldi : public Spectra::GenEigsComplexShiftSolver<ShiftedInverse> {
+// Spectra's solver, with the nu that it wanted, in their order, whether they have converged or not.
+class AxisArnoldi : public Spectra::GenEigsSolver<ShiftedInverse> {
  public:
-  using GenEigsComplexShiftSolver::GenEigsComplexShiftSolver;
-  Eigen::VectorXcd wanted() const { return this->Base::m_ritz_val.head(this->Base::m_nev); }
-
- private:
-  using Base = Spectra::GenEigsBase<ShiftedInverse, Spectra::IdentityBOp>;
+  using GenEigsSolver::GenEigsSolver;
+  Eigen::VectorXcd wanted() const { return m_ritz_val.head(m_nev); }
 };
+
+// mu of nu: of the two roots the one that v has the smaller residual for.
+std::complex<double> mu_of(std::complex<double> nu, double w, const ShiftedInverse& inverse,
+                           const Eigen::VectorXcd& v) {
+  const std::complex<double> root = std::sqrt(1.0 - 4 * w * w * nu * nu);
+  const std::complex<double> above = inverse.better((1.0 + root) / (2.0 * nu), v),
+                             below = inverse.better((1.0 - root) / (2.0 * nu), v);
+  return inverse.residual(above, v) <= inverse.residual(below, v) ? above : below;
+}
 
 struct NearEigenvalues {
   std::vector<std::complex<double>> values;
@@ -51,34 +53,34 @@ struct NearEigenvalues {
   AxisRange range;        // upper = lower: none
 };
 
-// J, M: n x n; M null: 1. start: n, or empty. Values whose residual exceeds the root of the tolerance are
-// left out. Nothing found where J - i w M is singular.
-NearEigenvalues eigenvalues_near(const SparseMatrix& J, const SparseMatrix* M, double w,
-                                 const StabilityOptions& options, const Eigen::VectorXd& start) try {
+// start: n, or empty. Values whose residual exceeds the root of the tolerance are left out. Nothing found
+// where J - i w M is singular.
+NearEigenvalues eigenvalues_near(ShiftedInverse& inverse, double w, const StabilityOptions& options,
+                                 const Eigen::VectorXd& start) try {
   NearEigenvalues found;
-  const Eigen::Index n = J.rows(), wanted = std::min<Eigen::Index>(options.near_shift, n - 2),
+  const Eigen::Index n = inverse.rows(), wanted = std::min<Eigen::Index>(options.near_shift, n - 2),
                      krylov = std::min<Eigen::Index>(options.krylov, n);
-  ShiftedInverse inverse(J, M);
-  AxisArnoldi solver(inverse, wanted, krylov, 0, w);
+  inverse.set_shift(0, w);
+  AxisArnoldi solver(inverse, wanted, krylov);
   if (start.size() == n && start.norm() > 0)
     solver.init(start.data());
   else
     solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, options.restarts, options.tolerance);
-  const Eigen::VectorXcd values = solver.eigenvalues();
+  const Eigen::VectorXcd converged = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
   double least = std::numeric_limits<double>::infinity(), missed = 0;
   found.start = Eigen::VectorXd::Zero(n);
   Eigen::Index i = 0;  // of those that have converged
-  for (const std::complex<double>& each : solver.wanted()) {
-    const bool has_converged = i < values.size() && each == values[i];
-    const std::complex<double> mu = has_converged ? inverse.better(each, vectors.col(i)) : each;
+  for (const std::complex<double>& nu : solver.wanted()) {
+    const bool has_converged = i < converged.size() && nu == converged[i];
+    const std::complex<double> mu = has_converged ? mu_of(nu, w, inverse, vectors.col(i)) : 0;
     if (has_converged && inverse.residual(mu, vectors.col(i)) <= std::sqrt(options.tolerance)) {
       found.values.push_back(mu);
       found.start += vectors.col(i).real();
-      least = std::min(least, size_of_nu(mu, w));
+      least = std::min(least, std::abs(nu));
     } else {
-      missed = std::max(missed, size_of_nu(mu, w));
+      missed = std::max(missed, std::abs(nu));
     }
     if (has_converged) ++i;
   }
@@ -175,7 +177,8 @@ std::optional<Spectrum> SpectrumFinder::by_inertia(const SparseMatrix& J) {
   if (!D.allFinite() || D.cwiseAbs().minCoeff() <= least_inertia_pivot * D.cwiseAbs().maxCoeff()) return {};
   Spectrum found;
   if (shifts_.empty()) shifts_.push_back({});
-  look_near(J, shifts_.front(), found);
+  ShiftedInverse inverse(J, nullptr);
+  look_near(inverse, shifts_.front(), found);
   found.complete = true;
   found.found_near = {{0, unbounded}};
   found.unstable = static_cast<int>((D.array() > 0).count());
@@ -183,8 +186,8 @@ std::optional<Spectrum> SpectrumFinder::by_inertia(const SparseMatrix& J) {
   return found;
 }
 
-void SpectrumFinder::look_near(const SparseMatrix& J, Shift& shift, Spectrum& found) {
-  NearEigenvalues near = eigenvalues_near(J, options_.mass.get(), shift.w, options_, shift.start);
+void SpectrumFinder::look_near(ShiftedInverse& inverse, Shift& shift, Spectrum& found) {
+  NearEigenvalues near = eigenvalues_near(inverse, shift.w, options_, shift.start);
   for (const auto& value : near.values)
     if (!is_among(found.leading, value)) found.leading.push_back(value);
   if (near.range.upper > near.range.lower) found.found_near.push_back(near.range);
@@ -202,14 +205,14 @@ std::optional<double> SpectrumFinder::next_shift(const std::vector<AxisRange>& r
 }
 
 // What the shifts have missed is found once more by a shift next to it, with its neighbours.
-void SpectrumFinder::look_at_any_frequency(const SparseMatrix& J, Spectrum& found) {
+void SpectrumFinder::look_at_any_frequency(const SparseMatrix& J, ShiftedInverse& inverse, Spectrum& found) {
   auto nearest = nearest_to_axis(J, options_.mass.get(), options_, nearest_vector_);
   nearest_vector_ = nearest ? std::move(nearest->vector) : Eigen::VectorXcd();
   if (!nearest) return;
   found.nearest = nearest->value;
   if (is_among(found.leading, nearest->value)) return;
   missed_.w = nearest->value.imag();
-  look_near(J, missed_, found);
+  look_near(inverse, missed_, found);
   found.found_near = joined(std::move(found.found_near));
   for (const auto& each : {nearest->value, std::conj(nearest->value)})
     if (!is_among(found.leading, each)) found.leading.push_back(each);
@@ -221,16 +224,17 @@ Spectrum SpectrumFinder::by_shifts(const SparseMatrix& J) {
     for (const double w : options_.frequencies) shifts_.push_back({w, {}});
   }
   Spectrum found;
-  for (Shift& shift : shifts_) look_near(J, shift, found);
+  ShiftedInverse inverse(J, options_.mass.get());
+  for (Shift& shift : shifts_) look_near(inverse, shift, found);
   found.found_near = joined(std::move(found.found_near));
   while (shifts_.size() < static_cast<std::size_t>(options_.shifts)) {
     const auto w = next_shift(found.found_near);
     if (!w || !std::isfinite(*w)) break;
     shifts_.push_back({*w, {}});
-    look_near(J, shifts_.back(), found);
+    look_near(inverse, shifts_.back(), found);
     found.found_near = joined(std::move(found.found_near));
   }
-  if (options_.second_opinion) look_at_any_frequency(J, found);
+  if (options_.second_opinion) look_at_any_frequency(J, inverse, found);
   found.unstable = static_cast<int>(std::count_if(found.leading.begin(), found.leading.end(),
                                                   [](const auto& each) { return each.real() > 0; }));
   sort(found);

@@ -15,6 +15,8 @@
 
 namespace arcslip::continuation {
 
+class ShiftedInverse;
+
 class SpectrumFinder {
  public:
   explicit SpectrumFinder(StabilityOptions options) : options_(std::move(options)) {}
@@ -32,8 +34,8 @@ class SpectrumFinder {
   Spectrum by_all(const Matrix& J);
   std::optional<Spectrum> by_inertia(const SparseMatrix& J);
   Spectrum by_shifts(const SparseMatrix& J);
-  void look_near(const SparseMatrix& J, Shift& shift, Spectrum& found);
-  void look_at_any_frequency(const SparseMatrix& J, Spectrum& found);
+  void look_near(ShiftedInverse& inverse, Shift& shift, Spectrum& found);
+  void look_at_any_frequency(const SparseMatrix& J, ShiftedInverse& inverse, Spectrum& found);
   std::optional<double> next_shift(const std::vector<AxisRange>& ranges) const;
   void sort(Spectrum& found) const;
 

@@ -103,7 +103,7 @@ TEST_CASE(
 
 TEST_CASE("where the wider problem cannot be evaluated between two points, that is why no branch leaves") {
   const double hole = std::numeric_limits<double>::quiet_NaN();
-  CHECK(reason([=](double u) { return Matrix{{std::abs(u - 1) < 0.05 ? hole : u - 1}}; }, 1) ==
+  CHECK(reason([=](double u) { return Matrix{{std::abs(u - 1) < 0.015 ? hole : u - 1}}; }, 1) ==
         NotWidened::not_evaluated);
 }
 

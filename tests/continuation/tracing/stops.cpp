@@ -119,10 +119,10 @@ TEST_CASE("time_limit: a trace that takes longer stops with the points that it h
 }
 
 TEST_CASE("memory_limit: points fill the memory allowed, and without their unknowns ten times as many do") {
-  const auto problem = chan(100);
+  const auto problem = chan(200);
   Options options = window(0, 5);
-  options.memory = 10000;
-  const Start start{Vector::Zero(100), Vector::Zero(1), 0, 1};
+  options.memory = 20000;
+  const Start start{Vector::Zero(200), Vector::Zero(1), 0, 1};
   const Branch full = trace(problem, start, options);
   CHECK(full.stop.reason == StopReason::memory_limit);
   options.keep_points = false;
