@@ -11,15 +11,33 @@
 #include <exception>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <variant>
+#include <vector>
 
 namespace arcslip::continuation {
 namespace {
 
-constexpr int adaptions = 3;              // of C and W to the null spaces of one place
-constexpr int corrections = 60;           // chord steps, at most
+constexpr int adaptions = 3;      // of C and W to the null spaces of one place, at most
+constexpr double adapted = 1e-6;  // change of the space of C by an adaption: V is orthonormal to its square
+constexpr int corrections = 60;   // chord steps, at most
 constexpr double chord_rounding = 1e-15;  // of a correction in scales, relative
 constexpr double stagnation = 1e-12;      // of corrections that shrink no more: rounding
 constexpr double chord_divergence = 2;    // of corrections, from one to the next
+
+// Rows of a matrix of full column rank, as many as it has columns, that are independent.
+std::vector<Eigen::Index> independent_rows(const Matrix& A) {
+  Matrix rest = A;
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index k = 0; k < A.cols(); ++k) {
+    Eigen::Index row = 0;
+    rest.rowwise().squaredNorm().maxCoeff(&row);
+    const Vector direction = rest.row(row).transpose().normalized();
+    rest -= (rest * direction) * direction.transpose();
+    rows.push_back(row);
+  }
+  return rows;
+}
 
 Matrix generic_matrix(Eigen::Index rows, Eigen::Index columns, double phase) {
   Matrix result(rows, columns);
@@ -47,11 +65,13 @@ LyapunovSchmidt::LyapunovSchmidt(const Problem& problem, const Vector& p, int al
       scale_(n_ + 1),
       x_(n_ + 1),
       F_p_(n_),
-      rhs_(n_ + 1 + m_),
       C_(n_ + 1, m_ + 1),
       V_(n_ + 1, m_ + 1),
       W_(orthonormal_columns(generic_matrix(n_, m_, 1.0))),
-      G_(m_, m_ + 1) {
+      G_(m_, m_ + 1),
+      added_(!M_ && std::holds_alternative<SparseMatrix>(at_->jacobian()) ? m_ : 0) {
+  borders_ = Borders(problem.size(), static_cast<int>(m_ + 1 + added_));
+  rhs_.resize(n_ + 1 + m_ + added_);
   scale_ << problem.scales(), problem.parameters()[static_cast<std::size_t>(along)].scale;
   C_ = scale_.cwiseInverse().asDiagonal() * orthonormal_columns(generic_matrix(n_ + 1, m_ + 1, 0.5));
 }
@@ -61,6 +81,29 @@ bool LyapunovSchmidt::evaluate(const Vector& x, Needs needs) try {
   return at_->move_to(x.head(n_), p_, needs) == Evaluated::ok && at_->residual().allFinite();
 } catch (const std::exception&) {  // outside the domain, as it says
   return false;
+}
+
+// J, and of a sparse J, whose m smallest pivots would be rounding at the point, J_r = J + s sum e_r e_c^T
+// with entries where the null vectors are large. M is then that of J_r with further borders, z = (x_c):
+//
+//   J_r x - s sum e_r z + .. = ..,   e_c^T x - z = 0.
+const Jacobian& LyapunovSchmidt::regular_jacobian() {
+  if (added_ == 0) return at_->jacobian();
+  const SparseMatrix& J = std::get<SparseMatrix>(at_->jacobian());
+  const double size = J.nonZeros() > 0 ? J.coeffs().cwiseAbs().maxCoeff() : 1;
+  const Matrix right = orthonormal_columns(C_.topRows(n_)).leftCols(m_);
+  const auto rows = independent_rows(W_), columns = independent_rows(right);
+  SparseMatrix sum = J;
+  for (Eigen::Index k = 0; k < m_; ++k) {
+    const Eigen::Index r = rows[static_cast<std::size_t>(k)], c = columns[static_cast<std::size_t>(k)];
+    sum.coeffRef(r, c) += size;
+    borders_.columns(r, m_ + 1 + k) = -size;
+    borders_.rows(c, m_ + 1 + k) = 1;
+    borders_.corner(m_ + 1 + k, m_ + 1 + k) = -1;
+  }
+  sum.makeCompressed();
+  regular_ = std::move(sum);
+  return regular_;
 }
 
 bool LyapunovSchmidt::factorize() try {
@@ -74,12 +117,14 @@ bool LyapunovSchmidt::factorize() try {
   magnitude_ = W_.col(0).cwiseAbs().dot(rhs_.head(n_).cwiseAbs() + F_p_.cwiseAbs()) + 0.1 * shift_;
   if (shift_ == 0) shift_ = 1;
   if (W_.col(0).dot(F_p_) < 0) shift_ = -shift_;
-  borders_.columns.col(0) = F_p_ + shift_ * W_.col(0);
-  borders_.columns.rightCols(m_) = W_;
-  borders_.rows = C_.topRows(n_);
+  borders_.columns.setZero();
+  borders_.rows.setZero();
   borders_.corner.setZero();
-  borders_.corner.col(0) = C_.row(n_).transpose();
-  return M_->factorize(at_->jacobian(), borders_);
+  borders_.columns.col(0) = F_p_ + shift_ * W_.col(0);
+  borders_.columns.middleCols(1, m_) = W_;
+  borders_.rows.leftCols(m_ + 1) = C_.topRows(n_);
+  borders_.corner.col(0).head(m_ + 1) = C_.row(n_).transpose();
+  return M_->factorize(regular_jacobian(), borders_);
 } catch (const std::exception&) {
   return false;
 }
@@ -112,7 +157,7 @@ Matrix LyapunovSchmidt::left_parts(const Matrix& left, const Matrix& changes) {
     rhs_.setZero();
     rhs_.head(n_) = changes.col(j);
     solve();
-    parts.col(j) = rhs_.tail(m_);
+    parts.col(j) = rhs_.segment(n_ + 1, m_);
   }
   return parts;
 }
@@ -123,7 +168,7 @@ bool LyapunovSchmidt::null_spaces() {
     rhs_[n_ + j] = 1;
     solve();
     V_.col(j) = rhs_.head(n_ + 1);
-    G_.col(j) = rhs_.tail(m_);
+    G_.col(j) = rhs_.segment(n_ + 1, m_);
   }
   return V_.allFinite() && G_.allFinite();
 }
@@ -133,12 +178,15 @@ bool LyapunovSchmidt::move_to(const Vector& x) {
   if (!evaluate(x_, Needs::jacobian)) return false;
   for (int k = 0; k < adaptions; ++k) {
     if (!factorize() || !null_spaces()) return false;
+    const Matrix before = scale_.asDiagonal() * C_,
+                 now = orthonormal_columns(scale_.cwiseInverse().asDiagonal() * V_);
+    if (k > 0 && (now - before * (before.transpose() * now)).norm() <= adapted) return true;
     Matrix left;
     if (left_vectors(left))
       W_ = orthonormal_columns(left);
     else if (transposed_)
       return false;
-    C_ = scale_.cwiseInverse().asDiagonal() * orthonormal_columns(scale_.cwiseInverse().asDiagonal() * V_);
+    C_ = scale_.cwiseInverse().asDiagonal() * now;
   }
   return factorize() && null_spaces();
 }
@@ -186,7 +234,7 @@ Vector LyapunovSchmidt::beta(const Vector& y, Vector& place) {
     rhs_.head(n_) = -at_->residual() - W_ * found;
     solve();
     place += rhs_.head(n_ + 1);
-    found += rhs_.tail(m_);
+    found += rhs_.segment(n_ + 1, m_);
     const double now = rhs_.head(n_ + 1).cwiseQuotient(scale_).norm() / std::max(1.0, size());
     if (!std::isfinite(now)) return none;
     if (now <= chord_rounding || (k > 0 && now > 0.5 * before && before <= stagnation)) return found;

@@ -43,6 +43,7 @@ class LyapunovSchmidt {
  private:
   bool evaluate(const Vector& x, Needs needs);
   bool factorize();
+  const Jacobian& regular_jacobian();
   void solve();
   bool left_vectors(Matrix& left);
   Matrix left_parts(const Matrix& left, const Matrix& changes);
@@ -57,6 +58,8 @@ class LyapunovSchmidt {
   Borders borders_;
   Vector scale_, x_, F_p_, rhs_;
   Matrix C_, V_, W_, G_;
+  Jacobian regular_;    // of a sparse J
+  Eigen::Index added_;  // entries that make it regular: m, or 0 for other J
   double shift_ = 0, magnitude_ = 0;
   bool transposed_ = true;
 };

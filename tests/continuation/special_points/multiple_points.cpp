@@ -160,8 +160,9 @@ TEST_CASE("two branch points of one mode in one step, of opposite direction, are
 
 TEST_CASE("a square membrane has double branch points, at which four branches leave next to the flat one") {
   // Delta u + lambda sin u on a square: the modes (j, k) and (k, j) have one eigenvalue.
-  const int n = 7;
-  const double h2 = 1.0 / (64.0);
+  const int n = GENERATE(7, 24);
+  const double h2 = 1.0 / ((n + 1.0) * (n + 1.0));
+  CAPTURE(n);
   const auto index = [=](int i, int j) { return i * n + j; };
   Functions f{.size = n * n, .parameters = {parameter("lambda", 0, 10)}};
   f.residual = [=](In u, In p, Out F) {
@@ -189,7 +190,8 @@ TEST_CASE("a square membrane has double branch points, at which four branches le
   };
   f.derivative = [=](In u, In, int, Out dF) { dF = h2 * u.array().sin(); };
   const auto eigenvalue = [&](int j, int k) {
-    const double a = std::sin(j * std::acos(-1.0) / 16), b = std::sin(k * std::acos(-1.0) / 16);
+    const double a = std::sin(j * std::acos(-1.0) / (2 * n + 2)),
+                 b = std::sin(k * std::acos(-1.0) / (2 * n + 2));
     return 4 / h2 * (a * a + b * b);
   };
   const Branch flat = trace(from_functions(f), {Vector::Zero(n * n), Vector{{1.0}}, 0, 1}, window(0, 130),
