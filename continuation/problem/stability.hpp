@@ -57,9 +57,9 @@ struct StabilityOptions {
   int leading = 6;       // eigenvalues that are kept; >= 1
 
   // Of Arnoldi's method.
-  int near_shift = 8;       // eigenvalues wanted near each shift; >= 1
-  int krylov = 40;          // vectors kept, >= 2 near_shift + 1: more cost memory, fewer more restarts
-  int restarts = 20;        // at most: eigenvalues equally far from a shift hardly converge
+  int near_shift = 8;  // eigenvalues wanted near each shift; >= 1
+  int krylov = 40;     // vectors kept, >= 2 near_shift + 1: more cost memory, fewer more restarts
+  int restarts = 5;    // at most: eigenvalues equally far from a shift hardly converge, and end its range
   double tolerance = 1e-8;  // of eigenvalues, relative
   int shifts = 8;           // at most, each with a factorization or two: every further one goes twice as far
   double largest_frequency = 0;  // w beyond which nothing is looked for, rad per time; 0: as far as shifts go

@@ -30,7 +30,7 @@ using Complex = std::complex<double>;
 
 constexpr int most_iterations = 6;
 constexpr double lyapunov_tolerance = 1e-5;  // of the residual, relative to C C^T
-constexpr double dependent = 1e-12;          // what is left of a vector of the space: rounding
+constexpr double no_new_direction = 1e-12;   // what is left of a vector of the space: rounding
 constexpr double infinite_mu = 1e-14;        // of 1 / mu, relative to the largest: below, M is singular
 constexpr double real_pole = 1e-3;           // imaginary part of a pole that is taken as real, relative
 
@@ -86,7 +86,7 @@ class RationalKrylov {
       Vector next = parts.col(i);
       for (int twice = 0; twice < 2; ++twice)
         next -= V_.leftCols(size_) * (V_.leftCols(size_).transpose() * next);
-      if (!(next.norm() > dependent * length)) continue;
+      if (!(next.norm() > no_new_direction * length)) continue;
       V_.col(size_) = next.normalized();
       S_.perform_op(V_.col(size_).data(), SV_.col(size_).data());
       ++size_;

@@ -4,7 +4,7 @@
 #include <arcslip/continuation/stability/shifted_inverse.hpp>
 
 #include <Spectra/GenEigsSolver.h>
-#include <Eigen/SparseCholesky>
+#include <Spectra/SymEigsSolver.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,6 +46,18 @@ std::complex<double> mu_of(std::complex<double> nu, double w, const ShiftedInver
                              below = inverse.better((1.0 - root) / (2.0 * nu), v);
   return inverse.residual(above, v) <= inverse.residual(below, v) ? above : below;
 }
+
+// x -> J^-1 x, as Spectra asks for it.
+struct FactoredInverse {
+  using Scalar = double;
+  const Eigen::SimplicialLDLT<SparseMatrix>& factors;
+
+  Eigen::Index rows() const { return factors.rows(); }
+  Eigen::Index cols() const { return factors.rows(); }
+  void perform_op(const double* in, double* out) const {
+    Eigen::Map<Vector>(out, rows()) = factors.solve(Eigen::Map<const Vector>(in, rows()));
+  }
+};
 
 struct NearEigenvalues {
   std::vector<std::complex<double>> values;
@@ -176,14 +188,30 @@ std::optional<Spectrum> SpectrumFinder::by_inertia(const SparseMatrix& J) {
   const Vector D = factors.vectorD();
   if (!D.allFinite() || D.cwiseAbs().minCoeff() <= least_inertia_pivot * D.cwiseAbs().maxCoeff()) return {};
   Spectrum found;
-  if (shifts_.empty()) shifts_.push_back({});
-  ShiftedInverse inverse(J, nullptr);
-  look_near(inverse, shifts_.front(), found);
+  look_near_zero(factors, found);
   found.complete = true;
   found.found_near = {{0, unbounded}};
   found.unstable = static_cast<int>((D.array() > 0).count());
   sort(found);
   return found;
+}
+
+// Those of a symmetric J next to 0, by Lanczos' method for J^-1 with the factors that have counted them.
+void SpectrumFinder::look_near_zero(const Eigen::SimplicialLDLT<SparseMatrix>& factors, Spectrum& found) {
+  const Eigen::Index n = factors.rows(), wanted = std::min<Eigen::Index>(options_.leading, n - 1),
+                     krylov =
+                         std::min<Eigen::Index>(std::max(options_.krylov / 2, 2 * options_.leading + 1), n);
+  if (shifts_.empty()) shifts_.push_back({});
+  Eigen::VectorXd& start = shifts_.front().start;
+  FactoredInverse inverse{factors};
+  Spectra::SymEigsSolver<FactoredInverse> solver(inverse, wanted, krylov);
+  if (start.size() == n && start.norm() > 0)
+    solver.init(start.data());
+  else
+    solver.init();
+  if (solver.compute(Spectra::SortRule::LargestMagn, options_.restarts, options_.tolerance) == 0) return;
+  for (const double nu : solver.eigenvalues()) found.leading.emplace_back(1 / nu);
+  start = solver.eigenvectors().rowwise().sum();
 }
 
 void SpectrumFinder::look_near(ShiftedInverse& inverse, Shift& shift, Spectrum& found) {

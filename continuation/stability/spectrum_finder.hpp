@@ -10,6 +10,7 @@
 #include <arcslip/continuation/problem/stability.hpp>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCholesky>
 
 #include <vector>
 
@@ -34,6 +35,7 @@ class SpectrumFinder {
   Spectrum by_all(const Matrix& J);
   std::optional<Spectrum> by_inertia(const SparseMatrix& J);
   Spectrum by_shifts(const SparseMatrix& J);
+  void look_near_zero(const Eigen::SimplicialLDLT<SparseMatrix>& factors, Spectrum& found);
   void look_near(ShiftedInverse& inverse, Shift& shift, Spectrum& found);
   void look_at_any_frequency(const SparseMatrix& J, ShiftedInverse& inverse, Spectrum& found);
   std::optional<double> next_shift(const std::vector<AxisRange>& ranges) const;
