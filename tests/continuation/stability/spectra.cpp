@@ -300,7 +300,7 @@ TEST_CASE("without a nearest eigenvalue that converges there is no second opinio
 }
 
 TEST_CASE("no eigenvalue is missing within the range of a shift, also where those next to it converge last") {
-  // Pairs next to each other, which Arnoldi's method tells apart last, some further ones, and many far away.
+  // Pairs next to each other, which Arnoldi's method separates last, some further ones, and many far away.
   std::mt19937 random(1);
   const auto uniform = [&](double from, double to) {
     return from + (to - from) * std::uniform_real_distribution<double>(0, 1)(random);
