@@ -15,6 +15,7 @@ namespace {
 
 constexpr double rejection = 0.25;             // of the step after a rejection
 constexpr int rejections_before_a_corner = 2;  // in one stretch of the branch
+constexpr int rejections_across_kinks = 4;     // the same, where kinks are passed: most are weak
 constexpr double parameter_overrun = 1.5;      // of the largest |dp| of a step
 constexpr double parameter_rounding = 1e-9;    // relative changes of p below this give no direction
 // A turn of which this share remains in a step shortened by this factor is a kink.
@@ -200,7 +201,8 @@ bool Tracer::Impl::passes_corner_instead() {
     s_.trouble_end = s_.here.arclength + s_.step;
     s_.rejections = 0;
   }
-  if (++s_.rejections >= rejections_before_a_corner && corner()) return true;
+  const int enough = options_.step.pass_kinks ? rejections_across_kinks : rejections_before_a_corner;
+  if (++s_.rejections >= enough && corner()) return true;
   s_.factors_fit = false;
   return false;
 }
