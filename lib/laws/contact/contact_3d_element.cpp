@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace arcslip::elements {
 namespace {
@@ -35,37 +36,14 @@ class Contact3dElement final : public Element {
         nearby_(h),
         shorter_(c_),
         derivative_(2 * c_, 3 * c_),
+        u_(Eigen::VectorXd::Constant(3 * c_, std::numeric_limits<double>::quiet_NaN())),
         u_n_(c_),
         radius_(c_),
         F_(3 * c_),
         J_(3 * c_, 3 * c_) {}
 
   void move_to(In u, Fields fields, bool jacobian) override {
-    std::copy(fields.begin(), fields.end(), fields_);
-    const double k_t = fields[contact_field::tangential_stiffness],
-                 mu = fields[contact_field::friction_coefficient];
-    u_n_ = u.tail(c_);
-    normal_.move_to(u_n_, fields[contact_field::normal_stiffness], fields[contact_field::normal_load]);
-    F_.tail(c_) = normal_.force();
-    radius_ = mu / k_t * normal_.load();
-    disc_.set(u.head(c_), u.segment(c_, c_), radius_);
-    k_ = stiffness_in_use(k_t, mu, normal_.load(), disc_.motion_bound(0));
-    if (k_ != k_t) {
-      // Without friction the limit: derivatives by mu need the direction of slip.
-      const double size = disc_.motion_bound(0), most = normal_.load().cwiseAbs().sum();
-      const double ratio = k_ > 0 ? mu / k_ : most > 0 ? frictionless * size / most : 0;
-      radius_ = ratio * normal_.load();
-      disc_.set(u.head(c_), u.segment(c_, c_), radius_);
-    }
-    const bool finite = std::isfinite(disc_.motion_bound(3)) && std::isfinite(disc_.radius_bound(3)) &&
-                        std::isfinite(disc_.largest());
-    rigid_ = !finite || (!(k_ > 0) && !(disc_.motion_bound(0) > 0));
-    differentiated_ = false;
-    F_.head(2 * c_).setConstant(finite ? 0 : std::numeric_limits<double>::quiet_NaN());
-    if (!rigid_) {
-      stretch_.move_to(disc_, normal_.closed(), normal_.opens());
-      if (k_ > 0) F_.head(2 * c_) = k_ * stretch_.coefficients();
-    }
+    if (u != u_ || !std::equal(fields.begin(), fields.end(), fields_)) find(u, fields);
     if (jacobian) set_jacobian();
   }
 
@@ -129,6 +107,35 @@ class Contact3dElement final : public Element {
   }
 
  private:
+  void find(In u, Fields fields) {
+    u_ = u;
+    std::copy(fields.begin(), fields.end(), fields_);
+    const double k_t = fields[contact_field::tangential_stiffness],
+                 mu = fields[contact_field::friction_coefficient];
+    u_n_ = u.tail(c_);
+    normal_.move_to(u_n_, fields[contact_field::normal_stiffness], fields[contact_field::normal_load]);
+    F_.tail(c_) = normal_.force();
+    radius_ = mu / k_t * normal_.load();
+    disc_.set(u.head(c_), u.segment(c_, c_), radius_);
+    k_ = stiffness_in_use(k_t, mu, normal_.load(), disc_.motion_bound(0));
+    if (k_ != k_t) {
+      // Without friction the limit: derivatives by mu need the direction of slip.
+      const double size = disc_.motion_bound(0), most = normal_.load().cwiseAbs().sum();
+      const double ratio = k_ > 0 ? mu / k_ : most > 0 ? frictionless * size / most : 0;
+      radius_ = ratio * normal_.load();
+      disc_.set(u.head(c_), u.segment(c_, c_), radius_);
+    }
+    const bool finite = std::isfinite(disc_.motion_bound(3)) && std::isfinite(disc_.radius_bound(3)) &&
+                        std::isfinite(disc_.largest());
+    rigid_ = !finite || (!(k_ > 0) && !(disc_.motion_bound(0) > 0));
+    differentiated_ = false;
+    F_.head(2 * c_).setConstant(finite ? 0 : std::numeric_limits<double>::quiet_NaN());
+    if (!rigid_) {
+      stretch_.move_to(disc_, normal_.closed(), normal_.opens());
+      if (k_ > 0) F_.head(2 * c_) = k_ * stretch_.coefficients();
+    }
+  }
+
   // Next to full stick the rest is hardly held across the slip: its derivative is the ratio of two small
   // numbers, of which rounding leaves little. There the derivatives are continued from shorter radii, with
   // the root of what these fall short of full stick.
@@ -178,6 +185,7 @@ class Contact3dElement final : public Element {
   mutable Eigen::VectorXd shorter_;
   mutable Eigen::MatrixXd derivative_;  // of the stretch
   bool rigid_ = false;
+  Eigen::VectorXd u_;  // at which the rest is known, with these fields
   Eigen::VectorXd u_n_, radius_, F_;
   Eigen::MatrixXd J_;
 };

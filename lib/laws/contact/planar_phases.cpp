@@ -26,6 +26,8 @@ constexpr double phase_per_panel = 4;  // rad, of the highest harmonic
 constexpr std::size_t most_panels = 20000;
 constexpr int rest_newton_steps = 40, rest_passes = 200;
 constexpr double shortest_share = 0.01;  // of Newton's step
+constexpr std::size_t pair_stride = 4;   // samples from one that is paired with others to the next
+constexpr std::size_t sampled_periods = 2;
 
 Eigen::Vector2d direction(double psi) {
   return {std::cos(psi), std::sin(psi)};
@@ -39,6 +41,18 @@ std::uint64_t disc_phase_code(const DiscPhase& phase) {
   return static_cast<std::uint64_t>(1 + static_cast<int>(phase.state) + 3 * static_cast<int>(from));
 }
 
+// Where a slider that begins at w is after some periods, moved to the edge of the disc at each of the
+// instants: from so near to the periodic motion, fewer periods are marched.
+Eigen::Vector2d sampled_slider(const std::vector<DiscInstant>& instants, Eigen::Vector2d w) {
+  for (std::size_t k = 0; k <= sampled_periods * instants.size(); ++k) {
+    const DiscInstant& at = instants[k % instants.size()];
+    const Eigen::Vector2d y = at.x - w;
+    const double d = y.norm();
+    if (d > at.h) w = at.x - at.h / d * y;
+  }
+  return w;
+}
+
 }  // namespace
 
 DiscPhases::DiscPhases(const Harmonics& harmonics)
@@ -46,7 +60,7 @@ DiscPhases::DiscPhases(const Harmonics& harmonics)
   phases_.reserve(static_cast<std::size_t>(16 * harmonics.order + 64));
   panels_.reserve(static_cast<std::size_t>(8 * harmonics.order + 64));
   before_.reserve(panels_.capacity());
-  const int count = 4 * harmonics.order + 12;
+  const int count = static_cast<int>(pair_stride) * (4 * harmonics.order + 12);
   for (int k = 0; k < count; ++k)
     samples_.emplace_back(std::cos(whole_turn * k / count), std::sin(whole_turn * k / count));
   instants_.resize(samples_.size());
@@ -291,7 +305,8 @@ void DiscPhases::march(const Disc& disc, State& state, DiscPhase::Begin from, do
 Eigen::Vector2d DiscPhases::displacement(const SlipPanel& panel) const {
   const SlipPanel::Nodes weights = collocation_.weights(panel);
   Eigen::Vector2d sum(0, 0);
-  for (int j = 0; j < panel_nodes; ++j) sum += weights[j] * panel.spare[j] * direction(panel.psi[j]);
+  for (int j = 0; j < panel_nodes; ++j)
+    sum += weights[j] * panel.spare[j] * Eigen::Vector2d(panel.outward[0][j], panel.outward[1][j]);
   return sum;
 }
 
@@ -341,14 +356,17 @@ double DiscPhases::iterate(const Disc& disc, double enough, Eigen::Vector2d& w) 
 
 // Whether a pair of instants excludes full stick by far, without the centre.
 bool DiscPhases::surely_slips(const Disc& disc) {
-  for (std::size_t k = 0; k < samples_.size(); ++k) {
-    const DiscPoint at = disc.at(samples_[k].first, samples_[k].second);
-    instants_[k] = {0, at.x, at.h};
-  }
+  const auto look_at_each = [&](std::size_t stride) {
+    for (std::size_t k = 0; k < samples_.size(); k += stride) {
+      const DiscPoint at = disc.at(samples_[k].first, samples_[k].second);
+      instants_[k] = {0, at.x, at.h};
+    }
+  };
+  look_at_each(pair_stride);
   short_of_stick_ = 0;
   std::size_t first = 0, second = 0;
-  for (std::size_t i = 0; i < instants_.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
+  for (std::size_t i = 0; i < instants_.size(); i += pair_stride)
+    for (std::size_t j = 0; j < i; j += pair_stride) {
       const double apart = instants_[i].h + instants_[j].h + 2 * short_of_stick_;
       const double square = (instants_[i].x - instants_[j].x).squaredNorm();
       if (!(apart > 0) || !(square > apart * apart)) continue;
@@ -357,7 +375,9 @@ bool DiscPhases::surely_slips(const Disc& disc) {
       second = j;
     }
   if (!(short_of_stick_ > clear_slip * (disc.motion_bound(0) + disc.largest()))) return false;
-  start_ = stick_margin(instants_[first], instants_[second]).w;
+  const Eigen::Vector2d w = stick_margin(instants_[first], instants_[second]).w;
+  look_at_each(1);
+  start_ = sampled_slider(instants_, w);
   return true;
 }
 

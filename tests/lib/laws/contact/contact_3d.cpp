@@ -241,6 +241,31 @@ TEST_CASE("the Jacobian and the derivatives by the fields follow the history of 
   CHECK(pieces.size() > 15);
 }
 
+TEST_CASE("a contact in a plane follows from the motion and the fields, whatever was asked before") {
+  const auto law = elements::contact_3d().law({});
+  const elements::Harmonics h{2, false};
+  const Vector first = contacts::random_plane(h, 1, 0.2, 3), second = contacts::random_plane(h, 1, 0.2, 4);
+  const std::vector<double> fields{2, 1.5, 0.5, 1}, lighter{2, 1.5, 0.5, 0.6};
+  const auto element = law->element(h, {});
+  const auto check = [&](const Vector& u, const std::vector<double>& f) {
+    const Force fresh = evaluate(*law, h, u, f);
+    CHECK(element->force() == fresh.F);
+    CHECK(element->piece() == fresh.piece);
+    element->move_to(u, f, true);
+    CHECK(element->force() == fresh.F);
+    CHECK(element->jacobian() == fresh.J);
+    Vector by_load(u.size());
+    element->field_derivative(3, by_load);
+    CHECK(by_load == fresh.by_field.col(3));
+  };
+  for (const Vector* u : {&first, &second, &first})
+    for (const auto* f : {&fields, &lighter, &fields})
+      for (int k = 0; k < 2; ++k) {
+        element->move_to(*u, *f, false);
+        check(*u, *f);
+      }
+}
+
 TEST_CASE("a contact in a plane stays finite and dissipates at every extreme") {
   const elements::Harmonics h{4, false};
   const Eigen::Index c = h.size();
