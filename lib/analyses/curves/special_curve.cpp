@@ -98,26 +98,10 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
     end.stop = branch.stop;
     end.closed = part == 0 && branch.stop.reason == StopReason::closed;
     if (branch.points.empty() || end.closed || comes_back(before_part)) break;
-    const continuation::Point& last = branch.points.back();
-    const double before = last.tangent[last.tangent.size() - 1];
-    end.x = last.u.head(problem_->size() + 1);
-    end.over = last.parameter;
-    end.direction = before < 0 ? -1 : 1;
-    const bool leaves = branch.stop.reason == StopReason::event;
-    const std::string by = leaves ? branch.events.back().monitor : "";
-    const bool passes = leaves ? by == below_event || by == above_event
-                               : !at.corner && branch.stop.reason == StopReason::step_too_small;
-    end.left_window = by == window_event;
-    end.vanishes = by == event_kinds::fold;
-    if (!passes) break;
-    CurveStart place{end.x, end.over, end.direction, at.corner};
-    if (place.corner) place.corner = hbm::at_angles(*place.corner, last.u);
-    auto next = leaves ? leave_corner(place, by == above_event) : to_corner(place);
-    if (!next && kind_.maximum && is_surpassed(place)) end.vanishes = true;
-    if (!next && !end.vanishes) next = seen_beyond(place);
+    const auto next = part_beyond(branch, at.corner);
     if (!next) break;
     result_.events.push_back({arclength_, {event_kinds::corner, true, true, result_.points.back().point}});
-    if (next->direction != place.direction) result_.turns.push_back(arclength_);
+    if (next->direction != end.direction) result_.turns.push_back(arclength_);
     at = *next;
   }
   std::stable_sort(result_.events.begin(), result_.events.end(),
@@ -125,70 +109,100 @@ SpecialCurve SpecialCurveTracer::run(const SpecialPoint& start, int direction) {
   return std::move(result_);
 }
 
-continuation::Branch SpecialCurveTracer::trace(const CurveStart& from) {
-  const Eigen::Index n = problem_->size();
+// Ends the curve where a part of it ends, and returns the start of the next one, if it continues.
+std::optional<SpecialCurveTracer::CurveStart> SpecialCurveTracer::part_beyond(
+    const continuation::Branch& branch, const std::optional<hbm::Corner>& corner) {
+  SpecialCurveEnd& end = result_.end;
+  const continuation::Point& last = branch.points.back();
+  end.x = last.u.head(problem_->size() + 1);
+  end.over = last.parameter;
+  end.direction = last.tangent[last.tangent.size() - 1] < 0 ? -1 : 1;
+  const bool leaves = branch.stop.reason == StopReason::event;
+  const std::string by = leaves ? branch.events.back().monitor : "";
+  end.left_window = by == window_event;
+  end.vanishes = by == event_kinds::fold;
+  const bool passes = leaves ? by == below_event || by == above_event
+                             : !corner && branch.stop.reason == StopReason::step_too_small;
+  if (!passes) return {};
+  CurveStart place{end.x, end.over, end.direction, corner};
+  if (corner) place.corner = hbm::at_angles(*corner, last.u);
+  if (auto next = leaves ? leave_corner(place, by == above_event) : to_corner(place)) return next;
+  if (kind_.maximum && is_surpassed(place)) end.vanishes = true;
+  return end.vanishes ? std::nullopt : seen_beyond(place);
+}
+
+std::vector<Monitor> SpecialCurveTracer::monitors_from(const CurveStart& from) const {
   const bool corner = from.corner.has_value();
   auto monitors = corner ? corner_monitors_ : smooth_monitors_;
-  monitors.push_back(window_monitor(window_, n));
-  if (corner) {
-    // Where the curve turns, the branch over the frequency touches the corner.
-    monitors.push_back(continuation::fold_monitor());
-    monitors.back().terminal = true;
-    const auto slopes = std::make_shared<hbm::CornerSides>(problem_, *from.corner, kind_.quantity);
-    const auto add = [&](const char* name, double hbm::CornerSlopes::*side) {
-      Monitor monitor;
-      monitor.name = name;
-      monitor.value = [=](const Accepted& now) { return slopes->slopes(now.u, now.p).*side; };
-      monitor.terminal = true;
-      monitors.push_back(std::move(monitor));
-    };
-    add(below_event, &hbm::CornerSlopes::below);
-    add(above_event, &hbm::CornerSlopes::above);
-  }
-  const auto second = continuation::cusp_monitor().value;
-  const double begin = arclength_;
-  const PointCondition held = corner          ? PointCondition::corner
-                              : kind_.maximum ? PointCondition::extremum
-                                              : PointCondition::fold;
-  const auto observe = [&](const Accepted& now, PointCondition by) {
-    ResponsePoint point = section_->observe(now, by);
-    set_apart(kind_.event, point);
-    return point;
+  monitors.push_back(window_monitor(window_, problem_->size()));
+  if (!corner) return monitors;
+  // Where the curve turns, the branch over the frequency touches the corner.
+  monitors.push_back(continuation::fold_monitor());
+  monitors.back().terminal = true;
+  const auto slopes = std::make_shared<hbm::CornerSides>(problem_, *from.corner, kind_.quantity);
+  const auto add = [&](const char* name, double hbm::CornerSlopes::* side) {
+    Monitor monitor;
+    monitor.name = name;
+    monitor.value = [=](const Accepted& now) { return slopes->slopes(now.u, now.p).*side; };
+    monitor.terminal = true;
+    monitors.push_back(std::move(monitor));
   };
-  bool first = begin > 0;  // of a further part: its first point is where the part before ended
-  const auto record = [&](const Accepted& now, const continuation::Event* event) {
+  add(below_event, &hbm::CornerSlopes::below);
+  add(above_event, &hbm::CornerSlopes::above);
+  return monitors;
+}
+
+ResponsePoint SpecialCurveTracer::observe(const Accepted& now, const CurveStart& from) {
+  ResponsePoint point = section_->observe(now, from.corner     ? PointCondition::corner
+                                               : kind_.maximum ? PointCondition::extremum
+                                                               : PointCondition::fold);
+  set_apart(kind_.event, point);
+  return point;
+}
+
+// Reports why, where the response just ahead grows without bound.
+bool SpecialCurveTracer::grows_ahead(const Accepted& now) {
+  const Eigen::Index n = problem_->size();
+  if (!(now.u.head(n).norm() > grown_size * problem_->displacement())) return false;
+  Vector p = parameters(now.u, now.parameter);
+  p[way_.index] *= 1 + (now.tangent[now.u.size()] < 0 ? -look_ahead : look_ahead);
+  const auto growth = unboundedness(*problem_, p, now.u.head(n));
+  if (growth.unbounded) result_.end.unbounded = growth.message;
+  return growth.unbounded;
+}
+
+// A further part begins with the point where the part before ended, which is not recorded again.
+continuation::Observer SpecialCurveTracer::recording(const CurveStart& from) {
+  return [this, &from, begin = arclength_, repeated = arclength_ > 0,
+          second = continuation::cusp_monitor().value](const Accepted& now,
+                                                       const continuation::Event* event) mutable {
+    const bool is_end = event && (event->monitor == window_event || event->monitor == below_event ||
+                                  event->monitor == above_event);
     const double arclength = begin + now.arclength;
-    const bool terminal =
-        event && (event->monitor == window_event || event->monitor == below_event ||
-                  event->monitor == above_event || (corner && event->monitor == event_kinds::fold));
-    if (event && (!terminal || event->monitor == event_kinds::fold)) {
+    if (event && !is_end) {
       result_.events.push_back(
-          {arclength, {event->monitor, event->nonsmooth, event->located, observe(now, held)}});
+          {arclength, {event->monitor, event->nonsmooth, event->located, observe(now, from)}});
       return true;
     }
-    if (std::exchange(first, false)) return true;
-    result_.points.push_back({arclength, corner ? 0 : second(now), observe(now, held), from.corner});
-    if (corner) result_.points.back().corner = hbm::at_angles(*from.corner, now.u);
-    if (terminal) return true;
-    const double omega = now.u[n];
-    if (now.u.head(n).norm() > grown_size * problem_->displacement()) {
-      Vector p = parameters(now.u, now.parameter);
-      p[way_.index] *= 1 + (now.tangent[now.u.size()] < 0 ? -look_ahead : look_ahead);
-      if (const auto growth = unboundedness(*problem_, p, now.u.head(n)); growth.unbounded) {
-        result_.end.unbounded = growth.message;
-        return false;
-      }
-    }
-    report_(now.parameter, omega);
+    if (std::exchange(repeated, false)) return true;
+    result_.points.push_back({arclength, from.corner ? 0 : second(now), observe(now, from), from.corner});
+    if (from.corner) result_.points.back().corner = hbm::at_angles(*from.corner, now.u);
+    if (is_end) return true;
+    if (grows_ahead(now)) return false;
+    report_(now.parameter, now.u[problem_->size()]);
     return control_.keep_going();
   };
+}
+
+continuation::Branch SpecialCurveTracer::trace(const CurveStart& from) {
+  const double begin = arclength_;
   auto options = way_.options();
   options.control = control_;
   continuation::Branch branch =
-      continuation::trace(corner ? hbm::corner_points(problem_, *from.corner) : smooth_,
-                          {corner ? hbm::with_angles(from.x, *from.corner) : from.x,
+      continuation::trace(from.corner ? hbm::corner_points(problem_, *from.corner) : smooth_,
+                          {from.corner ? hbm::with_angles(from.x, *from.corner) : from.x,
                            parameters(from.x, from.over), way_.index, from.direction},
-                          options, std::move(monitors), record);
+                          options, monitors_from(from), recording(from));
   add_scene_hint(problem_->model(), parameters(from.x, from.over), branch);
   if (!branch.points.empty()) {  // what was seen beyond a terminal event is none of it
     arclength_ = begin + branch.points.back().arclength;

@@ -139,6 +139,12 @@ class SpecialCurveTracer final : public CurveTracer {
   };
 
   continuation::Branch trace(const CurveStart& from);
+  std::optional<CurveStart> part_beyond(const continuation::Branch& branch,
+                                        const std::optional<hbm::Corner>& corner);
+  std::vector<continuation::Monitor> monitors_from(const CurveStart& from) const;
+  ResponsePoint observe(const continuation::Accepted& now, const CurveStart& from);
+  bool grows_ahead(const continuation::Accepted& now);
+  continuation::Observer recording(const CurveStart& from);
   using CurveTracer::passage;
   std::size_t passage(const SpecialCurve& curve, std::size_t points, const SpecialPoint& through) const;
   bool comes_back(std::size_t begin);
