@@ -1,5 +1,6 @@
 #include <arcslip/analyses/curves/special_curve_results.hpp>
 
+#include <arcslip/analyses/branches/branch_recording.hpp>
 #include <arcslip/analyses/branches/stop_reason.hpp>
 #include <arcslip/analyses/curves/curve_estimates.hpp>
 #include <arcslip/results/event_kinds.hpp>
@@ -89,53 +90,44 @@ std::vector<double> CurveParts::turns(const SpecialCurve& curve) {
   return turns;
 }
 
+// From one arclength to another; none: it has no points there, or is for the most part no curve of peaks.
+std::optional<ResponseBranch> CurveParts::between(double begin, double end, const SpecialCurve& curve) const {
+  std::vector<std::pair<double, double>> course;
+  for (const auto& at : curve.points) course.emplace_back(at.arclength, at.point.amplitude);
+  Course part;
+  double peaks = 0, others = 0;  // arclengths
+  for (const auto& at : curve.points) {
+    if (!(at.arclength >= begin && at.arclength < end)) continue;
+    const double length = part.points.empty() ? 0 : at.arclength - part.points.back().first;
+    (at.second <= 0 ? peaks : others) += length;
+    part.points.emplace_back(at.arclength, at.point);
+  }
+  if (part.points.empty() || (peaks_ && others > peaks)) return {};
+  for (const auto& each : curve.events) {
+    if (each.arclength < begin || each.arclength > end || belongs_to_another(curve, each)) continue;
+    if (is_extreme(each.event) && !departs(course, each.arclength, each.event.point.amplitude)) continue;
+    ResponseEvent& event = part.events.emplace_back(each.arclength, each.event).second;
+    estimate_change(curve, each.arclength, event);
+    if (peaks_ && each.arclength == begin) part.points.emplace(part.points.begin(), begin, event.point);
+    if (peaks_ && each.arclength == end) part.points.emplace_back(end, event.point);
+  }
+  ResponseBranch branch = described(*way_.model, way_.name);
+  part.move_to(branch);
+  return branch;
+}
+
 std::vector<ResponseBranch> CurveParts::of(const SpecialCurve& curve) const {
   std::vector<ResponseBranch> parts;
   std::vector<double> ends;
   if (peaks_) ends = turns(curve);
   ends.push_back(HUGE_VAL);
-  std::vector<std::pair<double, double>> course;
-  for (const auto& at : curve.points) course.emplace_back(at.arclength, at.point.amplitude);
   double begin = -HUGE_VAL;
   for (std::size_t k = 0; k < ends.size(); begin = ends[k++]) {
-    const double end = ends[k];
-    double peaks = 0, others = 0;  // arclengths
-    const SpecialCurve::At* before = nullptr;
-    ResponseBranch part = described(*way_.model, way_.name);
-    std::vector<double> at_points, at_events;  // arclengths
-    for (const auto& at : curve.points) {
-      if (!(at.arclength >= begin && at.arclength < end)) continue;
-      const double length = before ? at.arclength - before->arclength : 0;
-      (at.second <= 0 ? peaks : others) += length;
-      before = &at;
-      part.points.push_back(at.point);
-      at_points.push_back(at.arclength);
-    }
-    if (part.points.empty() || (peaks_ && others > peaks)) continue;
-    for (const auto& each : curve.events) {
-      if (each.arclength < begin || each.arclength > end || belongs_to_another(curve, each)) continue;
-      if (is_extreme(each.event) && !departs(course, each.arclength, each.event.point.amplitude)) continue;
-      part.events.push_back(each.event);
-      estimate_change(curve, each.arclength, part.events.back());
-      if (peaks_ && each.arclength == begin) {
-        part.points.insert(part.points.begin(), part.events.back().point);
-        at_points.insert(at_points.begin(), begin);
-      }
-      if (peaks_ && each.arclength == end) {
-        part.points.push_back(part.events.back().point);
-        at_points.push_back(end);
-      }
-      at_events.push_back(each.arclength);
-    }
-    for (std::size_t i = 0; i < at_events.size(); ++i) {
-      const auto beyond = std::upper_bound(at_points.begin(), at_points.end(), at_events[i]);
-      part.events[i].after =
-          static_cast<std::size_t>(std::max<std::ptrdiff_t>(beyond - at_points.begin(), 1)) - 1;
-    }
-    if (is_one_place(part) && curve.points.size() > part.points.size()) continue;
-    if (is_zero_of_function(kind_)) add_ends(curve, part);
-    finish(part, curve, begin == -HUGE_VAL, end == HUGE_VAL);
-    parts.push_back(std::move(part));
+    auto part = between(begin, ends[k], curve);
+    if (!part || (is_one_place(*part) && curve.points.size() > part->points.size())) continue;
+    if (is_zero_of_function(kind_)) add_ends(curve, *part);
+    finish(*part, curve, begin == -HUGE_VAL, ends[k] == HUGE_VAL);
+    parts.push_back(std::move(*part));
   }
   if (parts.empty()) {
     parts.push_back(described(*way_.model, way_.name));

@@ -7,6 +7,7 @@
 #include <arcslip/results/response.hpp>
 #include <arcslip/scene/scene.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ class CurveParts {
   ResponseBranch stopped(double over) const;
 
  private:
+  std::optional<ResponseBranch> between(double begin, double end, const SpecialCurve& curve) const;
   bool belongs_to_another(const SpecialCurve& curve, const SpecialCurve::EventAt& each) const;
   void finish(ResponseBranch& part, const SpecialCurve& curve, bool is_first, bool is_last) const;
   Stop stop(const SpecialCurveEnd& end, double begin, bool has_points, Status& status) const;

@@ -62,22 +62,7 @@ class ResponseSearch {
     if (const auto& stop = swept.branch.stop;
         stop.reason == StopReason::boundary && stop.value != window_.upper)
       doubt_of_branch(stop.message);
-    // Newton's method may have ended next to a response that it does not come to.
-    const auto corrected = hbm::response_near(*found_.problem, p_, first);
-    const bool is_next = std::any_of(all_.u.begin(), all_.u.end(), [&](const Vector& other) {
-      return (first - other).norm() <= next_to * other.norm();
-    });
-    const bool is_off = corrected && (first - *corrected).norm() > same_solution * corrected->norm();
-    const Vector start = is_off ? *corrected : first;
-    const bool is_one = corrected || all_.u.empty();
-    if (corrected ? !all_.has(start) : is_one) {
-      all_.u.push_back(start);
-      follow(start);
-    }
-    if (is_one)
-      put_first(start);
-    else if (!is_next)
-      doubt("one that was found from rest could not be corrected");
+    add_from_rest(first);
     for (const Vector& guess : guesses)
       if (const auto u = hbm::response_near(*found_.problem, p_, guess); u && !stopped() && all_.add(*u))
         follow(*u);
@@ -94,6 +79,25 @@ class ResponseSearch {
 
  private:
   bool stopped() const { return !control_.keep_going(); }
+
+  // Newton's method from rest may have ended next to a response that it does not come to.
+  void add_from_rest(const Vector& first) {
+    const auto corrected = hbm::response_near(*found_.problem, p_, first);
+    const bool is_next = std::any_of(all_.u.begin(), all_.u.end(), [&](const Vector& other) {
+      return (first - other).norm() <= next_to * other.norm();
+    });
+    const bool is_off = corrected && (first - *corrected).norm() > same_solution * corrected->norm();
+    const Vector start = is_off ? *corrected : first;
+    const bool is_one = corrected || all_.u.empty();
+    if (corrected ? !all_.has(start) : is_one) {
+      all_.u.push_back(start);
+      follow(start);
+    }
+    if (is_one)
+      put_first(start);
+    else if (!is_next)
+      doubt("one that was found from rest could not be corrected");
+  }
 
   // The response that is found from rest comes first, as where no others are looked for.
   void put_first(const Vector& u) {
