@@ -279,10 +279,8 @@ class AllBranches {
   void trace(const continuation::Start& start, double step, Run& run) {
     const auto record = [&](const continuation::Accepted& now, const continuation::Event* event) {
       if (event) {
-        run.course.events.emplace_back(event->point.arclength,
-                                       ResponseEvent{event->monitor, event->nonsmooth, event->located,
-                                                     run.observer->observe(now, held_by(*event), true), 0});
-        set_apart(event->monitor, run.course.events.back().second.point);
+        run.course.events.emplace_back(
+            event->point.arclength, event_of(*event, run.observer->observe(now, held_by(*event), true)));
         return true;
       }
       run.course.points.emplace_back(now.arclength, run.observer->observe(now));

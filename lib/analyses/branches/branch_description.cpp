@@ -1,6 +1,7 @@
 #include <arcslip/analyses/branches/branch_description.hpp>
 
 #include <arcslip/results/event_kinds.hpp>
+#include <arcslip/stability/stability.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -122,6 +123,11 @@ void estimate_flat_peaks(ResponseBranch& branch) {
     for (std::size_t i = event.after + 1; i < points.size() && is_level(points[i]); ++i) continue;
     if (level >= points_of_flat_peak) event.point.truncation_estimate = largest;
   }
+}
+
+ResponseEvent event_of(const continuation::Event& event, ResponsePoint point) {
+  set_apart(event.monitor, point);
+  return {event.monitor, event.nonsmooth, event.located, std::move(point), event.after};
 }
 
 void add(const continuation::Counts& counts, SolverSummary& to) {

@@ -45,6 +45,9 @@ void drop_peaks_of_rounding(ResponseBranch& branch);
 /// lower it least, so that their own estimate alone is too low.
 void estimate_flat_peaks(ResponseBranch& branch);
 
+/// An event at a point, whose stability leaves out the multipliers that make it one (set_apart()).
+ResponseEvent event_of(const continuation::Event& event, ResponsePoint point);
+
 /// Adds the work of a trace, or of a part, with the name of its linear solver if it is not there yet.
 void add(const continuation::Branch& traced, SolverSummary& to);
 void add(const SolverSummary& part, SolverSummary& to);  // with its time

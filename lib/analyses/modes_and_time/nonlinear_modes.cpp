@@ -186,8 +186,7 @@ class ModeStudy {
         add_true_peak(static_cast<const hbm::ModeEvaluator&>(now.at), point);
       }
       at_.push_back(now.arclength);
-      result_.events.push_back(
-          {event->monitor, event->nonsmooth, event->located, std::move(point), event->after});
+      result_.events.push_back(event_of(*event, std::move(point)));
       return true;
     }
     course_.emplace_back(now.arclength, 1 + point.damping_ratio);

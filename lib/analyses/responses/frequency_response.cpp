@@ -238,9 +238,7 @@ class Sweep {
     return [&](Observer& observer, const continuation::Accepted& now, const continuation::Event* event) {
       ResponseBranch& result = course.result;
       if (event) {
-        result.events.push_back({event->monitor, event->nonsmooth, event->located,
-                                 observer.observe(now, held_by(*event), true), event->after});
-        set_apart(event->monitor, result.events.back().point);
+        result.events.push_back(event_of(*event, observer.observe(now, held_by(*event), true)));
         return true;
       }
       const double omega = now.p[model::frequency];

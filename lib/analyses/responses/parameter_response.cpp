@@ -181,9 +181,7 @@ class Traces {
         ResponsePoint point = observer->observe(now, held_by(*event), true);
         point.over = now.parameter;
         at.push_back(now.arclength);
-        result.events.push_back(
-            {event->monitor, event->nonsmooth, event->located, std::move(point), event->after});
-        set_apart(event->monitor, result.events.back().point);
+        result.events.push_back(event_of(*event, std::move(point)));
         return true;
       }
       observer->observe_next(now, result.points);

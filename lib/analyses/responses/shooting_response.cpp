@@ -100,9 +100,7 @@ class Shooting {
       ResponsePoint point = observer->observe(now);
       if (event) {
         at.push_back(now.arclength);
-        result_.events.push_back(
-            {event->monitor, event->nonsmooth, event->located, std::move(point), event->after});
-        set_apart(result_.events.back().kind, result_.events.back().point);
+        result_.events.push_back(event_of(*event, std::move(point)));
         return true;
       }
       course.emplace_back(now.arclength, point.amplitude);
