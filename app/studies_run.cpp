@@ -315,7 +315,10 @@ class StudiesRun {
  private:
   static studies::RunOptions run_options(const CommandOptions& options) {
     const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const bool reads_all_points =
+        !options.out.empty() || !options.json.empty() || !report_path(options).empty();
     return {.points = !options.out.empty() || !options.json.empty() || !options.csv.empty(),
+            .point_columns = reads_all_points ? std::vector<std::string>() : options.columns,
             .coefficients = options.coefficients,
             .figures = !options.out.empty() || !report_path(options).empty(),
             .receptance = options.receptance,

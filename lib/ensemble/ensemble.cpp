@@ -41,8 +41,10 @@ class Samples {
         combinations_(study_),
         schema_(kind_.schema(scene_, study_, {.points = true})),
         kept_(read_kept(settings.keep, schema_)),
-        computation_(
-            kind_.computation(scene_, study_, {.points = keeps_points(), .events_only = !keeps_points()})),
+        computation_(kind_.computation(scene_, study_,
+                                       {.points = keeps_points(),
+                                        .events_only = !keeps_points(),
+                                        .event_columns = kept_.tables.empty() ? event_columns() : Names()})),
         with_units_(kept_) {
     const double count = combinations_.count();
     if (count > sampling::largest_sample_count)
@@ -127,6 +129,8 @@ class Samples {
   const std::vector<Quantity>& quantities() const { return with_units_.quantities; }
 
  private:
+  using Names = std::vector<std::string>;
+
   static scene::Scene without_studies(scene::Scene scene) {
     scene.studies.clear();  // of which each sample would have a copy
     return scene;
@@ -135,6 +139,12 @@ class Samples {
   bool keeps_points() const {
     return std::any_of(kept_.tables.begin(), kept_.tables.end(),
                        [&](std::size_t table) { return schema_.tables[table].key != schema_.shown_table; });
+  }
+
+  Names event_columns() const {
+    Names columns;
+    for (const Quantity& quantity : kept_.quantities) columns.push_back(results::name({quantity.path}));
+    return columns;
   }
 
   void add_quantity(const Quantity& quantity, std::vector<TableColumn>& columns) const {

@@ -182,105 +182,125 @@ void Observer::estimate_truncation(const continuation::Accepted& now, PointCondi
   point.truncation_flagged = truncation.flagged || !point.stops.empty();
 }
 
-ResponsePoint Observer::observe(const continuation::Accepted& now, PointCondition held, bool maxima) {
+ResponsePoint Observer::observe(const continuation::Accepted& now, PointCondition held,
+                                const Observed& asked) {
   spaced_.restart();
-  return observe(now, held, maxima, true);
+  return observe_as(now, held, asked);
 }
 
-void Observer::observe_next(const continuation::Accepted& now, std::vector<ResponsePoint>& points,
-                            bool estimates) {
-  if (!estimates && !stability_) {  // which is known as far as they are
-    points.push_back(observe(now, PointCondition::parameter, false, false));
-    return;
-  }
-  const bool spaced = problem_->blocks() > few_blocks && !stability_ && !problem_->model().settings.chosen;
-  const bool estimated = !spaced || spaced_.is_due(now.arclength, now.parameter);
-  ResponsePoint point = observe(now, PointCondition::parameter, false, estimated);
-  if (!estimated)
+void Observer::observe_next(const continuation::Accepted& now, const Observed& asked,
+                            std::vector<ResponsePoint>& points) {
+  const bool spaced =
+      asked.estimates && problem_->blocks() > few_blocks && !stability_ && !problem_->model().settings.chosen;
+  Observed next = asked;
+  if (spaced) next.estimates = spaced_.is_due(now.arclength, now.parameter);
+  ResponsePoint point = observe_as(now, PointCondition::parameter, next);
+  if (spaced && !next.estimates)
     spaced_.pass(now.arclength, point);
   else if (spaced)
     spaced_.take(now.arclength, now.parameter, point, points);
   points.push_back(std::move(point));
 }
 
-ResponsePoint Observer::observe(const continuation::Accepted& now, PointCondition held, bool maxima,
-                                bool estimated) {
+ResponsePoint Observer::observe_as(const continuation::Accepted& now, PointCondition held,
+                                   const Observed& asked) {
   const auto& at = hbm_evaluator_of(now);
-  ResponsePoint point = motion(at, now.u, now.p);
-  point.phase = phase(now.p, x_);
+  ResponsePoint point;
+  add_solution(at, now.u, now.p, point);
+  if (asked.motion) add_motion(at, now.u, now.p, point);
+  const bool estimated = asked.estimates || stability_;
   if (estimated) estimate_truncation(now, held, point);
   if (stability_) add_stability(now, point);
-  point.energy_input = input_energy(*problem_, at, now.u);
-  point.forces = force_components(*problem_, at, x_);
-  if (maxima) {
-    if (!maxima_) maxima_ = std::make_unique<Maxima>(*problem_);
-    maxima_->add_to(point, at, x_);
-    estimate_stick(now, point);
-    for (std::size_t i = 0; i < point.responses.size(); ++i) {
-      NamedResponse& named = point.responses[i];
-      std::tie(named.velocity, named.acceleration) =
-          maxima_->of(named_motions_.col(static_cast<Eigen::Index>(i)), at.stiffness().base_frequency());
-    }
+  if (asked.motion) {
+    point.phase = phase(now.p, x_);
+    point.energy_input = input_energy(*problem_, at, now.u);
+    point.forces = force_components(*problem_, at, x_);
   }
+  if (asked.maxima) add_maxima(at, point);
+  if (asked.maxima && estimated) estimate_stick(now, point);
   return point;
+}
+
+void Observer::add_maxima(const hbm::HbmEvaluator& at, ResponsePoint& point) {
+  if (!maxima_) maxima_ = std::make_unique<Maxima>(*problem_);
+  maxima_->add_to(point, at, x_);
+  for (std::size_t i = 0; i < point.responses.size(); ++i) {
+    NamedResponse& named = point.responses[i];
+    std::tie(named.velocity, named.acceleration) =
+        maxima_->of(named_motions_.col(static_cast<Eigen::Index>(i)), at.stiffness().base_frequency());
+  }
 }
 
 ResponsePoint Observer::motion(const hbm::HbmEvaluator& at, continuation::In u,
                                const continuation::Vector& p) {
-  const auto& h = problem_->harmonics();
   ResponsePoint point;
-  point.amplitude = extreme(at, u).amplitude;
-  point.rms = elements::root_mean_square(h, x_);
-  point.omega = p[model::frequency];
-  add_named_responses(at, u, p, point);
-  point.energy_viscous = at.stiffness().viscous_energy(u, at.force_factor());
-  elements::FrictionState state;
-  point.elements.reserve(at.element_count());
-  for (std::size_t e = 0; e < at.element_count(); ++e) {
-    ElementResponse response;
-    response.name = problem_->model().elements[e].name;
-    state.open_share = 0;
-    state.mean_min = state.mean_max = no_value;
-    response.has_stick = at.element(e).friction(state);
-    if (stops_.at_reversals(at.element(e), e, p)) point.stops = response.name;
-    const elements::Law& law = *problem_->model().elements[e].law;
-    const int displacements = law.directions() * h.size();
-    if (law.dissipative()) {
-      response.energy =
-          response.has_stick && state.stick_share == 1
-              ? 0
-              : element_energy(h, at.element_motion(e), at.element(e).force().head(displacements));
-      point.energy_friction += response.energy;
-    }
-    if (const double wear = problem_->model().elements[e].wear_coefficient; wear > 0)
-      response.wear_rate = wear * response.energy * at.stiffness().base_frequency() / (2 * std::numbers::pi);
-    at.element(e).contact(response.contact);
-    elements::put_in_order(response.contact);
-    if (response.has_stick) {
-      response.stick_percent = 100 * state.stick_share;
-      response.has_normal_load = law.has_normal_load();
-      response.open_percent = 100 * state.open_share;
-      response.normal_load_max = state.load_max;
-      response.normal_load_min = state.load_min;
-      response.mean_force_min = state.mean_min;
-      response.mean_force_max = state.mean_max;
-      response.slip_angles = state.slip_onsets;
-      response.reversal_angles = state.slip_ends;
-      set_contact_angles(h, at.element_motion(e), response);
-    }
-    set_fundamental(*problem_, at, e, response);
-    point.elements.push_back(std::move(response));
-  }
-  add_patches(*problem_, at, p, point);
-  point.coefficients.reserve(static_cast<std::size_t>(2 * h.cosines()));
+  add_solution(at, u, p, point);
+  add_motion(at, u, p, point);
+  return point;
+}
+
+void Observer::add_solution(const hbm::HbmEvaluator& at, continuation::In u, const continuation::Vector& p,
+                            Solution& solution) {
+  solution.amplitude = extreme(at, u).amplitude;
+  solution.omega = p[model::frequency];
+  solution.unknowns.assign(u.data(), u.data() + u.size());
+  const auto& h = problem_->harmonics();
+  solution.order = h.order;
+  solution.coefficients.reserve(static_cast<std::size_t>(2 * h.cosines()));
   for (int i = 0; i < h.cosines(); ++i) {
     const int n = h.cosine_order(i);
-    point.coefficients.push_back(x_[i]);
-    point.coefficients.push_back(n == 0 ? 0.0 : x_[h.sine_index(n)]);
+    solution.coefficients.push_back(x_[i]);
+    solution.coefficients.push_back(n == 0 ? 0.0 : x_[h.sine_index(n)]);
   }
-  point.unknowns.assign(u.data(), u.data() + u.size());
-  point.order = h.order;
-  return point;
+  for (std::size_t e = 0; e < at.element_count(); ++e)
+    if (stops_.at_reversals(at.element(e), e, p)) solution.stops = problem_->model().elements[e].name;
+}
+
+void Observer::add_motion(const hbm::HbmEvaluator& at, continuation::In u, const continuation::Vector& p,
+                          ResponsePoint& point) {
+  point.rms = elements::root_mean_square(problem_->harmonics(), x_);
+  add_named_responses(at, u, p, point);
+  point.energy_viscous = at.stiffness().viscous_energy(u, at.force_factor());
+  point.elements.reserve(at.element_count());
+  for (std::size_t e = 0; e < at.element_count(); ++e) {
+    point.elements.push_back(element(at, e));
+    if (problem_->model().elements[e].law->dissipative()) point.energy_friction += point.elements[e].energy;
+  }
+  add_patches(*problem_, at, p, point);
+}
+
+ElementResponse Observer::element(const hbm::HbmEvaluator& at, std::size_t e) {
+  const auto& h = problem_->harmonics();
+  const model::NonlinearPart& part = problem_->model().elements[e];
+  const elements::Law& law = *part.law;
+  ElementResponse response;
+  response.name = part.name;
+  elements::FrictionState state;
+  state.mean_min = state.mean_max = no_value;
+  response.has_stick = at.element(e).friction(state);
+  const bool sticks = response.has_stick && state.stick_share == 1;
+  if (law.dissipative() && !sticks)
+    response.energy =
+        element_energy(h, at.element_motion(e), at.element(e).force().head(law.directions() * h.size()));
+  if (part.wear_coefficient > 0)
+    response.wear_rate =
+        part.wear_coefficient * response.energy * at.stiffness().base_frequency() / (2 * std::numbers::pi);
+  at.element(e).contact(response.contact);
+  elements::put_in_order(response.contact);
+  if (response.has_stick) {
+    response.stick_percent = 100 * state.stick_share;
+    response.has_normal_load = law.has_normal_load();
+    response.open_percent = 100 * state.open_share;
+    response.normal_load_max = state.load_max;
+    response.normal_load_min = state.load_min;
+    response.mean_force_min = state.mean_min;
+    response.mean_force_max = state.mean_max;
+    response.slip_angles = std::move(state.slip_onsets);
+    response.reversal_angles = std::move(state.slip_ends);
+    set_contact_angles(h, at.element_motion(e), response);
+  }
+  set_fundamental(*problem_, at, e, response);
+  return response;
 }
 
 continuation::Monitor peak_monitor(std::shared_ptr<Observer> observer) {

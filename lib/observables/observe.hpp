@@ -28,17 +28,12 @@ class Observer {
 
   const hbm::HbmProblem& problem() const { return *problem_; }
 
-  /// All observables at one point. held: the kind of point for the truncation estimate. The maxima, which are
-  /// the most expensive, are computed at events and other special points, or on request.
-  ResponsePoint observe(const continuation::Accepted& now, PointCondition held = PointCondition::parameter) {
-    return observe(now, held, held != PointCondition::parameter);
-  }
-  ResponsePoint observe(const continuation::Accepted& now, PointCondition held, bool maxima);
+  /// The solution at one point, with what is asked for. held: the kind of point for the truncation estimate.
+  ResponsePoint observe(const continuation::Accepted& now, PointCondition held, const Observed& asked);
   /// The same of the next point of a branch, after the last ones, whose truncation estimates may become
-  /// better known by it (SpacedEstimates). estimates: whether there are any, next to
-  /// those that the stability needs.
-  void observe_next(const continuation::Accepted& now, std::vector<ResponsePoint>& points,
-                    bool estimates = true);
+  /// better known by it (SpacedEstimates).
+  void observe_next(const continuation::Accepted& now, const Observed& asked,
+                    std::vector<ResponsePoint>& points);
 
   /// From now on, points have their stability, where it is known.
   void watch_stability(const StabilityRequest& request = true) {
@@ -50,8 +45,8 @@ class Observer {
   /// Why none of the points has any (StabilityAnalysis::unknown()).
   std::string unknown_stability() const { return stability_ ? stability_->unknown() : ""; }
 
-  /// Those of the motion alone: without phases, work of the excitation, parts of forces and what the
-  /// harmonics left out would add. u, p: where `at` is.
+  /// The solution and the observables of the motion alone: without phases, work of the excitation, parts of
+  /// forces and what the harmonics left out would add. u, p: where `at` is.
   ResponsePoint motion(const hbm::HbmEvaluator& at, continuation::In u, const continuation::Vector& p);
 
   /// Largest |x| of the observed coordinate, for unknowns u at the parameters of an evaluator.
@@ -74,7 +69,13 @@ class Observer {
   double phase(continuation::In p, continuation::In x) const;
   void add_named_responses(const hbm::HbmEvaluator& at, continuation::In u, continuation::In p,
                            ResponsePoint& point);
-  ResponsePoint observe(const continuation::Accepted& now, PointCondition held, bool maxima, bool estimated);
+  ResponsePoint observe_as(const continuation::Accepted& now, PointCondition held, const Observed& asked);
+  void add_solution(const hbm::HbmEvaluator& at, continuation::In u, const continuation::Vector& p,
+                    Solution& solution);
+  void add_motion(const hbm::HbmEvaluator& at, continuation::In u, const continuation::Vector& p,
+                  ResponsePoint& point);
+  ElementResponse element(const hbm::HbmEvaluator& at, std::size_t e);
+  void add_maxima(const hbm::HbmEvaluator& at, ResponsePoint& point);
   void estimate_truncation(const continuation::Accepted& now, PointCondition held, ResponsePoint& point);
   void add_stability(const continuation::Accepted& now, ResponsePoint& point);
   void estimate_stick(const continuation::Accepted& now, ResponsePoint& point);

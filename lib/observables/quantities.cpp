@@ -14,18 +14,18 @@ namespace {
 using Point = ResponsePoint;
 using Element = ElementResponse;
 
-template <double Point::*member>
+template <auto member>
 double value(const Point& point) {
   return point.*member;
 }
 
 // no_value where the amplitude is unbounded.
-template <double Point::*member>
+template <auto member>
 double bounded(const Point& point) {
   return point.unbounded ? no_value : point.*member;
 }
 
-template <double Synthesis::*member>
+template <double Synthesis::* member>
 double synthesis(const Point& point) {
   return point.synthesis.*member;
 }
@@ -34,47 +34,47 @@ bool has_true_peak(const Point& point) {
   return !std::isnan(point.synthesis.true_omega);
 }
 
-template <double ForceComponents::*member>
+template <double ForceComponents::* member>
 double force(const Point& point) {
   return point.forces.*member;
 }
 
-template <PhaseParts ForceComponents::*member, double PhaseParts::*part>
+template <PhaseParts ForceComponents::* member, double PhaseParts::* part>
 double force(const Point& point) {
   return point.forces.*member.*part;
 }
 
-template <double PhaseParts::*part>
+template <double PhaseParts::* part>
 double total_force(const Point& point) {
   return point.forces.total().*part;
 }
 
-template <double MotionMaxima::*member>
+template <double MotionMaxima::* member>
 double largest(const Point& point) {
   return point.maxima.*member;
 }
 
-template <double PhaseParts::*part>
+template <double PhaseParts::* part>
 double largest_force(const Point& point) {
   return point.maxima.force_per_displacement.*part;
 }
 
-template <double Element::*member>
+template <double Element::* member>
 double element(const Element& element) {
   return element.*member;
 }
 
-template <std::vector<double> Element::*member>
+template <std::vector<double> Element::* member>
 const std::vector<double>& angles(const Element& element) {
   return element.*member;
 }
 
-template <double PhaseParts::*part>
+template <double PhaseParts::* part>
 double fundamental(const Element& element) {
   return element.fundamental.*part;
 }
 
-template <double ForceMaxima::*member>
+template <double ForceMaxima::* member>
 double largest_of(const Element& element) {
   return element.maxima.*member;
 }
@@ -426,6 +426,23 @@ std::span<const Quantity<Stability>> stability_quantities() {
 
 std::span<const ResponseQuantity> mode_quantities() {
   return of_mode;
+}
+
+Observed needed_by(std::span<const std::string> columns) {
+  constexpr std::string_view of_solution[] = {"omega",        "frequency", "amplitude", "unbounded", "order",
+                                              "coefficients", "kind",      "nonsmooth", "located",   "after"};
+  Observed all = solution_alone;
+  for (const std::string_view column : columns) {
+    const bool is_estimate =
+        column.find("_estimate") != std::string_view::npos || column == "truncation_flagged";
+    const bool is_of_stick = column.ends_with("stick_estimate");
+    const bool is_maximum = is_of_stick || column.find("maxima.") != std::string_view::npos;
+    all.estimates = all.estimates || is_estimate;
+    all.maxima = all.maxima || is_maximum;
+    all.motion = all.motion || is_maximum ||
+                 (!is_estimate && std::ranges::find(of_solution, column) == std::end(of_solution));
+  }
+  return all;
 }
 
 bool is_of_modes(std::string_view path) {

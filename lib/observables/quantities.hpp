@@ -70,6 +70,9 @@ std::span<const ResponseQuantity> mode_quantities();
 /// Whether modes have the quantity with this path, of a response or of a named one: not where it takes an
 /// excitation.
 bool is_of_modes(std::string_view path);
+/// What columns of tables of points and events need to be computed, named by their path, with or without
+/// "elements".
+Observed needed_by(std::span<const std::string> columns);
 std::span<const ElementQuantity> element_quantities();
 std::span<const ElementQuantity> patch_quantities();
 std::span<const Quantity<NamedResponse>> named_response_quantities();

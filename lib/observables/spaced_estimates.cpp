@@ -27,14 +27,14 @@ bool SpacedEstimates::is_due(double arclength, double parameter) const {
            (last_.flagged ? widest_flagged_step : widest_step) * std::abs(parameter));
 }
 
-void SpacedEstimates::pass(double arclength, ResponsePoint& point) {
+void SpacedEstimates::pass(double arclength, Solution& point) {
   passed_.push_back(arclength);
   point.truncation_estimate = last_.estimate;
   point.truncation_change = last_.change;
   point.truncation_flagged = last_.flagged || !point.stops.empty();
 }
 
-void SpacedEstimates::take(double arclength, double parameter, const ResponsePoint& point,
+void SpacedEstimates::take(double arclength, double parameter, const Solution& point,
                            std::span<ResponsePoint> before) {
   if (!(arclength > last_.arclength)) restart();
   const Computed next{arclength, parameter, point.truncation_estimate, point.truncation_change,

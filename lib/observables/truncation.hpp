@@ -136,9 +136,9 @@ class SpacedEstimates {
   /// Whether the point at this arclength has its own. parameter: the free one.
   bool is_due(double arclength, double parameter) const;
   /// A point without its own.
-  void pass(double arclength, ResponsePoint& point);
+  void pass(double arclength, Solution& point);
   /// A point with its own, after those that passed, the last ones of `before`.
-  void take(double arclength, double parameter, const ResponsePoint& point, std::span<ResponsePoint> before);
+  void take(double arclength, double parameter, const Solution& point, std::span<ResponsePoint> before);
 
  private:
   struct Computed {

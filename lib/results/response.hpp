@@ -117,14 +117,17 @@ struct Synthesis {
   double true_omega = no_value, true_amplitude = no_value;  // of the true peak at that level, rad/s, m
 };
 
-/// One periodic response.
-struct ResponsePoint {
-  double omega = 0;                      // excitation frequency, rad/s
-  double over = 0;                       // the parameter ResponseBranch::over, if there is one
-  double amplitude = 0;                  // max over the period of |x|, m, at the scene's response; at several
-                                         // places: the largest, to which all else of the response belongs
-  double rms = no_value;                 // root of the mean of x^2 over the period, m
-  double phase = 0;                      // rad, lag of the response's fundamental behind the force's
+/// One periodic response, as algorithms read it.
+struct Solution {
+  double omega = 0;              // excitation frequency, rad/s
+  double over = 0;               // the parameter ResponseBranch::over, if there is one
+  double amplitude = 0;          // max over the period of |x|, m, at the scene's response; at several
+                                 // places: the largest, to which all else of the response belongs
+  std::vector<double> unknowns;  // of the whole motion, as in hbm/problem.hpp: see observables/histories.hpp
+  std::vector<double>
+      coefficients;  // of the response: the pair a_n, b_n for each n of ResponseBranch::harmonics
+  int order = 0;  // N of the harmonics kept, of the base frequency; 0: those of the whole branch. Where the
+                  // branch has more, their coefficients and unknowns are 0
   double truncation_estimate = 0;        // m, estimated effect of the neglected harmonics on the amplitude
   double truncation_change = no_value;   // m, the same with its sign, which may cancel; no_value: not known
   bool truncation_flagged = false;       // the estimate may be too low (observables/truncation.hpp)
@@ -133,24 +136,36 @@ struct ResponsePoint {
   double location_change = no_value;     // the same with its sign
   std::string stops;                     // an element whose motion stops where it reverses
                                          // (observables/sticking_at_reversal.hpp); empty: none
-  double energy_friction = 0;            // J per period
-  double energy_viscous = 0;             // J per period
   bool unbounded = false;                // the amplitude grows without bound; `amplitude` is undefined
+};
+
+/// What is computed of a response next to its omega, amplitude and coefficients, and whether it stops.
+struct Observed {
+  bool estimates = true;  // what the harmonics left out would change; known where the stability is
+  bool motion = true;     // phases, forces, energies, elements, named responses
+  bool maxima = false;    // over the period, the most expensive, with what the estimates say of the stick
+
+  friend bool operator==(const Observed&, const Observed&) = default;
+};
+inline constexpr Observed solution_alone{.estimates = false, .motion = false};
+inline constexpr Observed everything{.maxima = true};
+
+/// One periodic response with its observables. Where they are not asked for they have their defaults.
+struct ResponsePoint : Solution {
+  double rms = no_value;       // root of the mean of x^2 over the period, m
+  double phase = 0;            // rad, lag of the response's fundamental behind the force's
+  double energy_friction = 0;  // J per period
+  double energy_viscous = 0;   // J per period
   std::vector<ElementResponse> elements;
   std::vector<ElementResponse> patches;  // their totals (observables/patch_totals.hpp)
   std::vector<NamedResponse> responses;  // the named responses, in the order of the scene
-  std::vector<double>
-      coefficients;              // of the response: the pair a_n, b_n for each n of ResponseBranch::harmonics
-  std::vector<double> unknowns;  // of the whole motion, as in hbm/problem.hpp: see observables/histories.hpp
-  double energy_input = 0;       // work of the excitation, J per period; equals energy_total()
-  double damping_ratio = no_value;  // of a mode (hbm/mode.hpp)
-  double energy = no_value;         // of a mode, J (observables/mechanical_energy.hpp)
-  Synthesis synthesis{};            // of a mode
+  double energy_input = 0;               // work of the excitation, J per period; equals energy_total()
+  double damping_ratio = no_value;       // of a mode (hbm/mode.hpp)
+  double energy = no_value;              // of a mode, J (observables/mechanical_energy.hpp)
+  Synthesis synthesis{};                 // of a mode
   ForceComponents forces{};
   MotionMaxima maxima{};
   std::optional<Stability> stability{};  // if requested and known
-  int order = 0;  // N of the harmonics kept, of the base frequency; 0: those of the whole branch. Where the
-                  // branch has more, their coefficients and unknowns are 0
 
   double energy_total() const { return energy_friction + energy_viscous; }
   /// Share of friction in the dissipated energy, 0 to 100; no_value without dissipation, or where the

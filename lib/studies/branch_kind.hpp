@@ -4,6 +4,7 @@
 
 #include <arcslip/analyses/responses/frequency_response.hpp>
 #include <arcslip/analyses/responses/parameter_response.hpp>
+#include <arcslip/observables/quantities.hpp>
 #include <arcslip/studies/presentation/branches.hpp>
 #include <arcslip/studies/presentation/figures.hpp>
 #include <arcslip/studies/study_kind.hpp>
@@ -46,11 +47,19 @@ bool has_harmonics(const Range& range) {
   return true;
 }
 
-/// Returns a range of frequencies with long steps, where only events are asked for.
+/// Returns a range whose branches have what is read of them: with long steps, where that is events only. An
+/// accuracy is that of all points, and a flat peak takes the estimates of its neighbours.
 template <class Range>
-Range in_steps(Range range, bool events_only) {
+Range as_read(Range range, const RunOptions& options, bool has_accuracy) {
   if constexpr (requires { range.steps; })
-    if (events_only) range.steps = observables::Steps::events;
+    if (options.events_only && !has_accuracy) range.steps = observables::Steps::events;
+  if constexpr (requires { range.points; }) {
+    if (!options.point_columns.empty()) range.points = observables::needed_by(options.point_columns);
+    if (!options.event_columns.empty()) range.events = observables::needed_by(options.event_columns);
+    if (!options.points && !options.figures && !options.motions) range.points = observables::solution_alone;
+    range.events.estimates = range.events.estimates || has_accuracy;
+    range.points.estimates = range.points.estimates || range.events.estimates;
+  }
   return range;
 }
 
@@ -63,7 +72,7 @@ std::unique_ptr<Computation> computed_branches(const scene::Scene& scene, const 
   using Branches = std::span<const ResponseBranch>;
   auto of = std::make_unique<ComputationOf<ResponseBranch>>(
       branches(scene, asked_for(drawn, scene, range), options),
-      [range = in_steps(range, options.events_only && scene.harmonics.accuracy == 0)](
+      [range = as_read(range, options, scene.harmonics.accuracy > 0)](
           const Case& at, const control::Control& control) { return follow(at.scene, range, control); },
       [&scene](Branches branches) { return std::vector{figures_of(scene, drawn, branches)}; });
   if (has_harmonics(range))
@@ -72,8 +81,9 @@ std::unique_ptr<Computation> computed_branches(const scene::Scene& scene, const 
     };
   if constexpr (std::is_same_v<Range, observables::FrequencyRange> ||
                 std::is_same_v<Range, observables::ParameterRange>)
-    of->refine_items = [&range](const Case& at, Branches coarse, double accuracy,
-                                const control::Control& control) -> std::optional<Refined<ResponseBranch>> {
+    of->refine_items = [range = as_read(range, options, true)](
+                           const Case& at, Branches coarse, double accuracy,
+                           const control::Control& control) -> std::optional<Refined<ResponseBranch>> {
       auto refined = observables::refined_response(at.scene, range, coarse, accuracy, control);
       if (!refined) return std::nullopt;
       return Refined<ResponseBranch>{std::move(refined->branches), refined->change};

@@ -49,7 +49,7 @@ std::string to_two_digits(double value) {
 
 }  // namespace
 
-void add(const observables::ResponsePoint& point, Truncation& to) {
+void add(const observables::Solution& point, Truncation& to) {
   if (point.unbounded) return;
   to.amplitude = std::max(to.amplitude, point.amplitude);
   to.estimate = std::fmax(to.estimate, std::abs(point.truncation_estimate));

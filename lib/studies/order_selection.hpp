@@ -49,7 +49,7 @@ struct Truncation {
 Truncation truncation_of(std::span<const observables::ResponseBranch> branches, bool estimated = true);
 
 /// Of a response, of those that were searched in vain, and of how a computation ended.
-void add(const observables::ResponsePoint& point, Truncation& to);
+void add(const observables::Solution& point, Truncation& to);
 void add(const observables::LookedAt& responses, Truncation& to);
 void add(observables::Status status, const observables::Stop& stop, Truncation& to);
 

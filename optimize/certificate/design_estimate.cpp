@@ -25,13 +25,14 @@ struct Active {
 std::vector<Active> differentiated(const LoadCases& cases, const Balance& balance,
                                    const std::vector<Eigen::Index>& free, const control::Control& control,
                                    bool& flagged) {
-  const auto change = [](const observables::ResponsePoint& at) { return at.truncation_change; };
+  const auto change = [](const observables::Solution& at) { return at.truncation_change; };
+  constexpr observables::Observed read{.motion = false};
   std::vector<Active> all;
   for (const ActivePeak& each : balance.active) {
     if (each.multiplier < without_weight) continue;
     PeakAmplitude& peaks = cases.peaks(each.in_case);
     const Peak& peak = cases.state(each.in_case).peaks[each.peak];
-    const auto point = peaks.observe(peak);
+    const auto point = peaks.observe(peak, read);
     flagged = flagged || point.truncation_flagged;
     Active& active = all.emplace_back(Active{.group = cases.group(each.in_case),
                                              .share = each.multiplier * cases.value() / peak.amplitude,
@@ -44,7 +45,7 @@ std::vector<Active> differentiated(const LoadCases& cases, const Balance& balanc
     for (std::size_t k = 0; k < free.size(); ++k) {
       if (!control.keep_going()) return {};
       active.of_change[static_cast<Eigen::Index>(k)] =
-          peaks.change(each.peak, static_cast<std::size_t>(free[k]), change);
+          peaks.change(each.peak, static_cast<std::size_t>(free[k]), change, read);
     }
   }
   return all;

@@ -1,6 +1,7 @@
 #include <arcslip/optimize/evaluation/formulation.hpp>
 
 #include <arcslip/continuation/problem/text.hpp>
+#include <arcslip/observables/quantities.hpp>
 #include <arcslip/optimize/nlopt/epigraph.hpp>
 
 #include <algorithm>
@@ -24,7 +25,8 @@ Formulation::Formulation(const OptimumProblem& problem, const DesignSpace& space
   for (const ObservableLimit& limit : problem.limits) {
     const auto add = [&](double sign, double bound) {
       if (std::isfinite(bound))
-        limits_.push_back({space.observable(limit.observable), limit.observable, sign, bound});
+        limits_.push_back({space.observable(limit.observable), observables::needed_by({&limit.observable, 1}),
+                           limit.observable, sign, bound});
     };
     add(1, limit.at_most);
     add(-1, limit.at_least);
@@ -175,13 +177,13 @@ double Formulation::limit(const Limited& each, std::size_t c, std::size_t peak, 
   const PeakState& state = peaks.state();
   const Peak &of = state.peaks[peak], &highest = state.peaks[state.highest];
   const double scale = each.sign / (each.bound != 0 ? std::abs(each.bound) : 1);
-  const double value = scale * (each.observable(peaks.observe(of)) - each.bound);
+  const double value = scale * (each.observable(peaks.observe(of, each.read)) - each.bound);
   const double above = height(c, peak);
   const bool by_height = above < value;
   for (std::size_t k = 0; k < gradient.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     gradient[k] = (by_height ? of.gradient[i] / of.amplitude - highest.gradient[i] / highest.amplitude
-                             : scale * peaks.change(peak, k, each.observable)) *
+                             : scale * peaks.change(peak, k, each.observable, each.read)) *
                   space_.slope(k, state.design[k]);
   }
   return by_height ? above : value;

@@ -71,6 +71,7 @@ class Formulation {
  private:
   struct Limited {
     PeakAmplitude::Observable observable;
+    observables::Observed read;  // by it
     std::string name;
     double sign, bound;  // sign * (observable - bound)/scale <= 0
   };

@@ -133,8 +133,11 @@ class PeakAmplitude {
   const PeakWork& work() const { return work_; }
   const observables::FrequencyWindow& window() const { return window_; }
 
-  /// All observables at a peak of the state.
-  observables::ResponsePoint observe(const Peak& peak) { return observe(peak.x, peak.kind, state_.design); }
+  /// What is asked for at a peak of the state.
+  observables::ResponsePoint observe(const Peak& peak,
+                                     const observables::Observed& asked = observables::everything) {
+    return observe(peak.x, peak.kind, state_.design, asked);
+  }
 
   /// All observables at the highest peak of an earlier state, with its problem.
   observables::ResponsePoint observe(const PeakState& state,
@@ -144,8 +147,9 @@ class PeakAmplitude {
   using Observable = std::function<double(const observables::ResponsePoint&)>;
 
   /// Its derivative with respect to design parameter k at a peak of the state: a central difference along the
-  /// tangent. NaN if a kink is missing in the neighbouring responses.
-  double change(std::size_t peak, std::size_t k, const Observable& observable);
+  /// tangent. NaN if a kink is missing in the neighbouring responses. read: what it takes.
+  double change(std::size_t peak, std::size_t k, const Observable& observable,
+                const observables::Observed& read = observables::everything);
 
   /// d2A/dp_j dp_k of a peak of the state, symmetric (sensitivity.hpp). Empty at a kink, or if the equations
   /// of the peak are singular.
@@ -164,7 +168,7 @@ class PeakAmplitude {
 
  private:
   observables::ResponsePoint observe(const continuation::Vector& x, PeakKind kind,
-                                     std::span<const double> design);
+                                     std::span<const double> design, const observables::Observed& asked);
   PeakState response(std::span<const double> design, observables::Steps steps);
   void classify(Peak& peak);
   bool measure(Peak& peak, std::span<const double> design);

@@ -166,8 +166,9 @@ bool PeakAmplitude::follow(std::size_t peak, std::span<const double> to, Peak& f
 }
 
 observables::ResponsePoint PeakAmplitude::observe(const Vector& x, PeakKind kind,
-                                                  std::span<const double> design) {
-  return section_->observe(x, parameters(design), held_by(kind));
+                                                  std::span<const double> design,
+                                                  const observables::Observed& asked) {
+  return section_->observe(x, parameters(design), held_by(kind), asked);
 }
 
 continuation::Matrix PeakAmplitude::tangents(std::size_t peak) {
@@ -193,7 +194,8 @@ continuation::Matrix PeakAmplitude::hessian(std::size_t peak) {
   return second;
 }
 
-double PeakAmplitude::change(std::size_t peak, std::size_t k, const Observable& observable) {
+double PeakAmplitude::change(std::size_t peak, std::size_t k, const Observable& observable,
+                             const observables::Observed& read) {
   const Peak& of = state_.peaks[peak];
   const continuation::Matrix along = of.kind == PeakKind::kink ? of.along : tangents(peak);
   if (along.size() == 0 || !along.col(static_cast<Eigen::Index>(k)).allFinite())
@@ -204,7 +206,7 @@ double PeakAmplitude::change(std::size_t peak, std::size_t k, const Observable& 
   for (const int side : {0, 1}) {
     const Vector x = of.x + (side == 0 ? -h : h) * along.col(static_cast<Eigen::Index>(k));
     design[k] = state_.design[k] + (side == 0 ? -h : h);
-    value[side] = observable(observe(x, of.kind, design));
+    value[side] = observable(observe(x, of.kind, design, read));
   }
   return (value[1] - value[0]) / (2 * h);
 }

@@ -10,6 +10,7 @@ namespace arcslip::optimize {
 namespace {
 
 constexpr double no_sensitivity = 1e-12;  // d ln A / d ln p of less is none
+constexpr observables::Observed motion_alone{.estimates = false};
 
 bool is_flat(const LoadCases& cases, std::size_t c) {
   const PeakState& state = cases.state(c);
@@ -18,7 +19,7 @@ bool is_flat(const LoadCases& cases, std::size_t c) {
     if (std::abs(highest.gradient[static_cast<Eigen::Index>(k)] * state.design[k]) >
         no_sensitivity * highest.amplitude)
       return false;
-  const auto point = cases.peaks(c).observe(highest);
+  const auto point = cases.peaks(c).observe(highest, motion_alone);
   return std::all_of(point.elements.begin(), point.elements.end(),
                      [](const auto& element) { return !element.has_stick || element.stick_percent == 100; });
 }
@@ -101,7 +102,8 @@ std::optional<std::vector<double>> released(const LoadCases& cases, std::span<co
       const PeakState& state = peaks.state();
       moves = moves_highest(state, k);
       if (!moves)
-        most = std::max(most, closest_to_slip(peaks, peaks.observe(state.peaks[state.highest]), over[k]));
+        most = std::max(
+            most, closest_to_slip(peaks, peaks.observe(state.peaks[state.highest], motion_alone), over[k]));
     }
     if (moves || most == 0) continue;
     const std::vector<double>& at = cases.state(0).design;

@@ -35,12 +35,12 @@ std::string with_unit(const scene::Scene& scene, const std::string& parameter, d
   return number(value, error, "%.8g") + (unit.empty() || unit == "-" ? "" : " " + unit);
 }
 
-double error_of(double value, double estimate, const observables::ResponsePoint& at) {
+double error_of(double value, double estimate, const observables::Solution& at) {
   return at.truncation_flagged ? results::doubtful_error(value, estimate) : estimate;
 }
 
 // Of an amplitude at a point, without the digits that the neglected harmonics move.
-std::string at_point(double amplitude, const observables::ResponsePoint& point) {
+std::string at_point(double amplitude, const observables::Solution& point) {
   return metres(amplitude, error_of(amplitude, point.truncation_estimate, point));
 }
 
@@ -60,7 +60,7 @@ double estimate_of(const std::vector<LoadCaseResult>& cases) {
   return largest;
 }
 
-std::string frequency(const scene::Scene& scene, const observables::ResponsePoint& point) {
+std::string frequency(const scene::Scene& scene, const observables::Solution& point) {
   const double error = error_of(point.omega, point.location_estimate, point);
   return number(studies::in_scene_unit(scene, point.omega), studies::in_scene_unit(scene, error), "%.8f") +
          " " + std::string(scene::unit_name(scene.frequency_unit));

@@ -31,7 +31,7 @@ using elements::Harmonics;
 constexpr double near_end = 1e-3;  // distance to a branch point, relative to 1 + |u|, in scales
 constexpr const char* several_cross = "several branches cross there at once, as in symmetric structures";
 
-Vector with_frequency(const ResponsePoint& point) {
+Vector with_frequency(const Solution& point) {
   Vector v(point.unknowns.size() + 1);
   v << Eigen::Map<const Vector>(point.unknowns.data(), static_cast<Eigen::Index>(point.unknowns.size())),
       point.omega;
@@ -134,7 +134,7 @@ class AllBranches {
     const Known& last = known_.back();
     std::map<std::string, WiderBranchPoints> wider;
     std::vector<Vector> solutions;
-    for (const ResponsePoint& point : last.response.points) solutions.push_back(with_frequency(point));
+    for (const Solution& point : last.response.points) solutions.push_back(with_frequency(point));
     for (std::size_t e = 0; e < last.response.events.size(); ++e)
       if (const std::string& kind = last.response.events[e].kind;
           kind == event_kinds::period_doubling || kind == event_kinds::symmetry_breaking)
@@ -230,7 +230,7 @@ class AllBranches {
     run.course.points.emplace_back(
         -entry->step, run.observer->observe({leaves.u, p, leaves.half_branches[way.half].direction, 0,
                                              with.evaluator(), with.factors(), omega, with.scratch()},
-                                            PointCondition::branch_point));
+                                            PointCondition::branch_point, f_.events));
     set_apart(event_kinds::branch_point, run.course.points.front().second);
     estimate_as_at(leaves, run.course.points.front().second);
     trace(continuation::start_at(*entry, p, model::frequency), entry->step, run);
@@ -246,8 +246,8 @@ class AllBranches {
 
   // The equations are singular at a branch point. For fewer harmonics, those of the branch that is left
   // there, they are not.
-  void estimate_as_at(const Junction& where, ResponsePoint& point) const {
-    const ResponsePoint& event = left_at(where).point;
+  void estimate_as_at(const Junction& where, Solution& point) const {
+    const Solution& event = left_at(where).point;
     point.truncation_estimate = event.truncation_estimate;
     point.truncation_change = event.truncation_change;
     point.truncation_flagged = event.truncation_flagged;
@@ -280,10 +280,11 @@ class AllBranches {
     const auto record = [&](const continuation::Accepted& now, const continuation::Event* event) {
       if (event) {
         run.course.events.emplace_back(
-            event->point.arclength, event_of(*event, run.observer->observe(now, held_by(*event), true)));
+            event->point.arclength, event_of(*event, run.observer->observe(now, held_by(*event), f_.events)));
         return true;
       }
-      run.course.points.emplace_back(now.arclength, run.observer->observe(now));
+      run.course.points.emplace_back(now.arclength,
+                                     run.observer->observe(now, PointCondition::parameter, f_.points));
       f_.at(now.parameter);
       return f_.control.keep_going();
     };

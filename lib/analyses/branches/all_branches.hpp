@@ -39,6 +39,7 @@ struct BranchOptions {
   scene::FrequencyUnit unit;
   BranchLimits limits;
   Steps steps = Steps::curve;
+  Observed points{}, events = everything;
   control::Control control;
   std::function<void(double omega)> at;  // at each point, for the progress
 };

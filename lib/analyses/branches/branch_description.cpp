@@ -44,7 +44,7 @@ bool departs(const std::vector<std::pair<double, double>>& course, double arclen
   return std::any_of(first, after, differs) && std::any_of(after, last, differs);
 }
 
-bool is_rounding(const ResponsePoint& point) {
+bool is_rounding(const Solution& point) {
   const auto& u = point.unknowns;
   return !point.unbounded &&
          point.amplitude <=
@@ -106,10 +106,10 @@ void estimate_flat_peaks(ResponseBranch& branch) {
   const auto& points = branch.points;
   for (ResponseEvent& event : branch.events) {
     if (event.kind != event_kinds::peak || event.point.unbounded) continue;
-    const ResponsePoint& peak = event.point;
+    const Solution& peak = event.point;
     double largest = peak.truncation_estimate;
     int level = 0;
-    const auto is_level = [&](const ResponsePoint& nearby) {
+    const auto is_level = [&](const Solution& nearby) {
       const double known_to = 2 * (peak.truncation_estimate + nearby.truncation_estimate);
       const double above = nearby.amplitude - peak.amplitude;
       const bool is_known =

@@ -34,7 +34,7 @@ void drop_extrema_of_rounding(const std::vector<std::pair<double, double>>& cour
                               const std::vector<double>& at, ResponseBranch& result);
 
 /// Whether the amplitude is that of a place that does not move, but for rounding.
-bool is_rounding(const ResponsePoint& point);
+bool is_rounding(const Solution& point);
 
 /// Without the peaks of such places.
 void drop_peaks_of_rounding(ResponseBranch& branch);

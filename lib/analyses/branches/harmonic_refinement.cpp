@@ -41,7 +41,7 @@ double largest_amplitude(const ResponseBranch& branch) {
 }
 
 // The largest difference of a coefficient of the response, m.
-double point_distance(const ResponsePoint& a, const ResponsePoint& b) {
+double point_distance(const Solution& a, const Solution& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.coefficients.size(); ++i)
     most = std::max(most, std::abs(a.coefficients[i] - b.coefficients[i]));
@@ -97,7 +97,7 @@ void append_events(const std::vector<ResponseEvent>& events, const Between& betw
 
 }  // namespace
 
-double place_of(const ResponseBranch& branch, const ResponsePoint& point) {
+double place_of(const ResponseBranch& branch, const Solution& point) {
   return branch.over.empty() ? point.omega : point.over;
 }
 
@@ -121,7 +121,7 @@ std::vector<Part> parts_to_refine(const ResponseBranch& branch, double allowed) 
   const std::size_t n = branch.points.size();
   if (n == 0) return {};
   std::vector<bool> more(n);
-  const auto needs_more = [&](const ResponsePoint& point) {
+  const auto needs_more = [&](const Solution& point) {
     return point.truncation_flagged || !(std::abs(point.truncation_estimate) <= allowed);
   };
   for (std::size_t i = 0; i < n; ++i) more[i] = needs_more(branch.points[i]);

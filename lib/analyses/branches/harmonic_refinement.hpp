@@ -31,7 +31,7 @@ std::vector<Part> parts_to_refine(const ResponseBranch& branch, double allowed);
 ResponseBranch with_parts(const ResponseBranch& branch, const std::vector<Part>& parts,
                           std::vector<ResponseBranch> refined);
 
-/// A branch of which parts have more harmonics than others (ResponsePoint::order).
+/// A branch of which parts have more harmonics than others (Solution::order).
 struct RefinedBranch {
   ResponseBranch branch;
   double change = 0;  // of the amplitude by the harmonics added, at the ends of the parts and where it is
@@ -47,7 +47,7 @@ std::optional<RefinedBranch> refined_branch(
     const std::function<std::optional<ResponseBranch>(const Part&)>& trace);
 
 /// What a branch goes over, at a point of it: the parameter `over`, or the frequency, rad/s.
-double place_of(const ResponseBranch& branch, const ResponsePoint& point);
+double place_of(const ResponseBranch& branch, const Solution& point);
 
 /// The coefficients and unknowns of a point in the harmonics of another branch, which has those of `from`.
 ResponsePoint in_harmonics(ResponsePoint point, const ResponseBranch& from, const ResponseBranch& to);

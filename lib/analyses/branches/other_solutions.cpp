@@ -86,7 +86,7 @@ std::vector<Vector> solutions_at(const hbm::HbmProblem& problem, std::span<const
   const Vector p = hbm::parameters_at(problem, omega);
   std::vector<Vector> all;
   for (std::size_t i = 0; i + 1 < branch.size(); ++i) {
-    const ResponsePoint &from = branch[i], &to = branch[i + 1];
+    const Solution &from = branch[i], &to = branch[i + 1];
     if ((from.omega - omega) * (to.omega - omega) > 0 || from.omega == to.omega) continue;
     const double share = (omega - from.omega) / (to.omega - from.omega);
     const Eigen::Map<const Vector> a(from.unknowns.data(), problem.size()),

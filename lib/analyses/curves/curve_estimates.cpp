@@ -88,13 +88,13 @@ struct Changes {
 
 class Event {
  public:
-  Event(std::vector<Neighbour> nearby, const ResponsePoint& at) : nearby_(std::move(nearby)), at_(at) {}
+  Event(std::vector<Neighbour> nearby, const Solution& at) : nearby_(std::move(nearby)), at_(at) {}
 
-  Changes extremum(double ResponsePoint::*y, double ResponsePoint::*dy) const {
+  Changes extremum(double Solution::* y, double Solution::* dy) const {
     const double along = -course(dy, 1)[0] / (2 * course(y, 2)[0]);
-    const double moved = course(&ResponsePoint::omega, 1)[0] * along,
-                 grown = course(&ResponsePoint::amplitude, 1)[0] * along;
-    return {.parameter = course(&ResponsePoint::over, 1)[0] * along,
+    const double moved = course(&Solution::omega, 1)[0] * along,
+                 grown = course(&Solution::amplitude, 1)[0] * along;
+    return {.parameter = course(&Solution::over, 1)[0] * along,
             .frequency = at_.location_change + moved,
             .amplitude = at_.truncation_change + grown,
             .of_frequency = std::abs(at_.location_change) + std::abs(moved),
@@ -104,8 +104,8 @@ class Event {
 
   Changes turn() const {
     if (!turns()) return {};
-    const auto p = course(&ResponsePoint::over, 2), w = course(&ResponsePoint::omega, 1),
-               A = course(&ResponsePoint::amplitude, 2);
+    const auto p = course(&Solution::over, 2), w = course(&Solution::omega, 1),
+               A = course(&Solution::amplitude, 2);
     // Of y = y_0 + c_0 s^2 + c_1 s^3 at a given frequency, by the change of that at a given p.
     const auto by_frequency = [&](const Coefficients& y, const Neighbour& at) {
       return -at.point->location_change * (2 * y[0] * at.s + 3 * y[1] * at.s * at.s) /
@@ -128,7 +128,7 @@ class Event {
 
   Changes cusp() const {
     if (!turns()) return {};
-    const auto p = course(&ResponsePoint::over, 2, 3), A = course(&ResponsePoint::amplitude, 1, 3);
+    const auto p = course(&Solution::over, 2, 3), A = course(&Solution::amplitude, 1, 3);
     const auto [e, cubic, rest] = fitted(
         nearby_, 2, 3, [&](const Neighbour& at) { return at.point->omega - at_.omega; },
         [&](const Neighbour& at) { return at.point->over - at_.over; });
@@ -150,19 +150,19 @@ class Event {
  private:
   // Whether p = p_0 + c s^2 next to the event, which is not so within the accuracy of its location.
   bool turns() const {
-    const auto p = course(&ResponsePoint::over, 1, 3);
+    const auto p = course(&Solution::over, 1, 3);
     return !nearby_.empty() && std::abs(p[0]) <= located * std::abs(p[1]) * reach();
   }
 
   double reach() const { return std::max(-nearby_.front().s, nearby_.back().s); }
 
   // Of y from the event on, from the power n.
-  Coefficients course(double ResponsePoint::*y, int n, int terms = 2) const {
+  Coefficients course(double Solution::* y, int n, int terms = 2) const {
     return fitted(nearby_, n, terms, [&](const Neighbour& at) { return at.point->*y - at_.*y; });
   }
 
   std::vector<Neighbour> nearby_;
-  const ResponsePoint& at_;
+  const Solution& at_;
 };
 
 double size(double change, double of_parts) {
@@ -188,9 +188,9 @@ void estimate_change(const SpecialCurve& curve, double arclength, ResponseEvent&
   const Event it(nearby, at);
   Changes changes;
   if (event.kind == event_kinds::minimum || event.kind == event_kinds::maximum)
-    changes = it.extremum(&ResponsePoint::amplitude, &ResponsePoint::truncation_change);
+    changes = it.extremum(&Solution::amplitude, &Solution::truncation_change);
   else if (event.kind == event_kinds::turn)
-    changes = it.extremum(&ResponsePoint::omega, &ResponsePoint::location_change);
+    changes = it.extremum(&Solution::omega, &Solution::location_change);
   else if (event.kind == event_kinds::fold)
     changes = it.turn();
   else if (is_cusp)

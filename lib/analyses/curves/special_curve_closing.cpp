@@ -48,7 +48,7 @@ SpecialCurve joined(SpecialCurve back, SpecialCurve ahead) {
 std::size_t CurveTracer::passage(const SpecialCurve& curve, std::size_t points, const SpecialPoint& through,
                                  const LiesOn& lies_on) const {
   const Eigen::Index n = problem_->size();
-  const auto all_of = [&](const ResponsePoint& point) {
+  const auto all_of = [&](const Solution& point) {
     Vector v(n + 2);
     v << Eigen::Map<const Vector>(point.unknowns.data(), n), point.omega, point.over;
     return v;

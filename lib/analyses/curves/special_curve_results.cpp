@@ -19,7 +19,7 @@ constexpr double same_event = 1e-6;  // events that differ by less, relatively, 
 
 // Between two turns at one corner.
 bool is_one_place(const ResponseBranch& part) {
-  const ResponsePoint &first = part.points.front(), &last = part.points.back();
+  const Solution &first = part.points.front(), &last = part.points.back();
   return part.points.size() <= 2 && std::abs(first.over - last.over) <= same_event * std::abs(last.over) &&
          std::abs(first.omega - last.omega) <= same_event * last.omega;
 }

@@ -61,16 +61,16 @@ bool CurveSection::linearize() {
   return true;
 }
 
-ResponsePoint CurveSection::observe(In x, In p, PointCondition held, bool maxima) {
+ResponsePoint CurveSection::observe(In x, In p, PointCondition held, const Observed& asked) {
   move_to(x, p, Needs::jacobian);
   linearize();
   continuation::Scratch none;
   return observer_.observe({u_, p_, tangent_, 0, *evaluator_, *solver_, p_[model::frequency], none}, held,
-                           maxima);
+                           asked);
 }
 
 ResponsePoint CurveSection::observe(const Accepted& now, PointCondition held) {
-  ResponsePoint point = observe(now.u, now.p, held, held != PointCondition::parameter);
+  ResponsePoint point = observe(now.u, now.p, held, {.maxima = held != PointCondition::parameter});
   point.over = now.parameter;
   return point;
 }

@@ -25,11 +25,9 @@ class CurveSection {
   /// branch has no tangent.
   ResponsePoint observe(const continuation::Accepted& now, PointCondition held = PointCondition::extremum);
 
-  /// The same at a solution x = (u, omega) with all parameters p, and with the maxima.
+  /// What is asked for at a solution x = (u, omega) with all parameters p.
   ResponsePoint observe(continuation::In x, continuation::In p,
-                        PointCondition held = PointCondition::extremum) {
-    return observe(x, p, held, true);
-  }
+                        PointCondition held = PointCondition::extremum, const Observed& asked = everything);
 
   /// The multipliers at a point of the curve; null: not watched, or not known there.
   const StabilityAnalysis* stability(const continuation::Accepted& now);
@@ -41,7 +39,6 @@ class CurveSection {
   double last_amplitude() const { return observer_.last_amplitude(); }
 
  private:
-  ResponsePoint observe(continuation::In x, continuation::In p, PointCondition held, bool maxima);
   bool move_to(continuation::In x, continuation::In p, continuation::Needs needs);
   bool linearize();
 

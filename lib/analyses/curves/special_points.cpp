@@ -21,7 +21,7 @@ using continuation::Accepted;
 using continuation::StopReason;
 using continuation::Vector;
 
-void add(const ResponsePoint& point, LookedAt& to) {
+void add(const Solution& point, LookedAt& to) {
   if (point.unbounded) return;
   to.amplitude = std::max(to.amplitude, point.amplitude);
   to.estimate = std::fmax(to.estimate, std::abs(point.truncation_estimate));
@@ -69,13 +69,14 @@ class SpecialPointSearch {
   Record recording(PoleWatch& watch) {
     return [this, &watch](Observer& observer, const Accepted& now, const continuation::Event* event) {
       if (!event) {
-        if (stability_) add(observer.observe(now), found_.looked_at);
+        if (stability_)
+          add(observer.observe(now, PointCondition::parameter, solution_alone), found_.looked_at);
         return !watch.is_next_to_pole(observer.problem(), now.p, now.u);
       }
       if (stability_ && others_leave_at(event->monitor))
         found_.leaving.push_back({event->monitor, event->point.parameter});
       if (std::find(kinds_.begin(), kinds_.end(), event->monitor) == kinds_.end()) return true;
-      const ResponsePoint point = observer.observe(now);
+      const Solution point = observer.observe(now, PointCondition::parameter, solution_alone);
       if (event->monitor == event_kinds::peak && is_rounding(point)) return true;
       Vector x(now.u.size() + 1);
       x << now.u, now.parameter;
@@ -181,12 +182,13 @@ SpecialPoints special_points_of_all(const OverParameter& way, double over, const
   FrequencyRange range{window.lower / per_unit, window.upper / per_unit};
   range.branches = Branches::all;
   range.limits = limits;
+  range.points = range.events = {.motion = false};
   const auto all = traced_branches(way.at(over), unit, range, Steps::events, control);
   SpecialPoints found;
   found.branches = static_cast<int>(all.size());
   for (const TracedBranch& branch : all) {
     const ResponseBranch& response = branch.response;
-    for (const ResponsePoint& point : response.points) add(point, found.looked_at);
+    for (const Solution& point : response.points) add(point, found.looked_at);
     for (const ResponseEvent& event : response.events) add(event.point, found.looked_at);
     for (const ResponseEvent& event : response.events) {
       if (std::find(kinds.begin(), kinds.end(), event.kind) == kinds.end()) continue;

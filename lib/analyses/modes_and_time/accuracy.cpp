@@ -86,7 +86,9 @@ class Trials {
   // The highest peak of a frequency response; none: why, in failure.
   std::optional<Peak> highest_peak(const scene::Scene& scene, std::string& failure) {
     Peak found;
-    for (const auto& branch : frequency_response(scene, {settings_.from, settings_.to}, control_.quiet())) {
+    FrequencyRange range{settings_.from, settings_.to};
+    range.points = range.events = {.motion = false};
+    for (const auto& branch : frequency_response(scene, range, control_.quiet())) {
       found.points += static_cast<long>(branch.points.size());
       if (branch.status != Status::complete) failure = branch.stop.message;
       for (const auto& event : branch.events) {

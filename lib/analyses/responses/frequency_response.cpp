@@ -49,8 +49,12 @@ class Sweep {
         watched_{.stability = stability_of(range), .branch_points = all_},
         limits_(range.limits),
         steps_(steps),
+        points_(range.points),
+        events_(range.events),
         control_(control),
-        model_(std::move(model)) {}
+        model_(std::move(model)) {
+    points_.estimates = points_.estimates && steps != Steps::events;
+  }
 
   std::vector<ResponseBranch> run() {
     std::vector<ResponseBranch> branches;
@@ -116,6 +120,8 @@ class Sweep {
             .unit = frequency_unit_,
             .limits = limits_,
             .steps = steps_,
+            .points = points_,
+            .events = events_,
             .control = control_,
             .at = [this](double omega) {
               ++reported_.points;
@@ -238,12 +244,12 @@ class Sweep {
     return [&](Observer& observer, const continuation::Accepted& now, const continuation::Event* event) {
       ResponseBranch& result = course.result;
       if (event) {
-        result.events.push_back(event_of(*event, observer.observe(now, held_by(*event), true)));
+        result.events.push_back(event_of(*event, observer.observe(now, held_by(*event), events_)));
         return true;
       }
       const double omega = now.p[model::frequency];
       if (course.watch.is_next_to_pole(observer.problem(), now.p, now.u)) return false;
-      observer.observe_next(now, result.points, steps_ != Steps::events);
+      observer.observe_next(now, points_, result.points);
       reported_.points = static_cast<long>(result.points.size());
       reported_.frequency = omega / unit_;
       reported_.step = (omega - course.last) / unit_;
@@ -319,6 +325,7 @@ class Sweep {
   MonitoredEvents watched_;
   BranchLimits limits_;
   Steps steps_;
+  Observed points_, events_;
   const control::Control control_;
   std::shared_ptr<const model::Model> model_;
   BeyondPole far_side_{};

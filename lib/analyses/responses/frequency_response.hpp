@@ -32,6 +32,7 @@ struct FrequencyRange {
   BranchLimits limits{};                                     // of all branches
   ResponseMethod method = ResponseMethod::harmonic_balance;  // shooting: for one branch only
   Steps steps = Steps::curve;  // no key: events, where nothing else of the branches is of interest
+  Observed points{}, events = everything;  // no keys: what is asked for
   friend bool operator==(const FrequencyRange&, const FrequencyRange&) = default;
 };
 
@@ -45,7 +46,7 @@ std::vector<TracedBranch> traced_branches(std::shared_ptr<const model::Model> mo
                                           scene::FrequencyUnit unit, const FrequencyRange& range, Steps steps,
                                           const control::Control& control);
 
-/// A response of which parts have more harmonics than others (ResponsePoint::order).
+/// A response of which parts have more harmonics than others (Solution::order).
 struct RefinedResponse {
   std::vector<ResponseBranch> branches;
   double change = 0;  // of the amplitude by the harmonics added, at the ends of the parts and where it is

@@ -41,6 +41,8 @@ class Traces {
         unit_(scene.frequency_unit),
         omega_(range.frequency * scene::to_rad_per_s(unit_)),
         stability_(range.stability),
+        points_(range.points),
+        events_(range.events),
         control_(control) {
     progress_.frequency = range.frequency;
   }
@@ -178,13 +180,13 @@ class Traces {
     std::vector<double> at;                         // arclength of the events
     const auto record = [&](const Accepted& now, const continuation::Event* event) {
       if (event) {
-        ResponsePoint point = observer->observe(now, held_by(*event), true);
+        ResponsePoint point = observer->observe(now, held_by(*event), events_);
         point.over = now.parameter;
         at.push_back(now.arclength);
         result.events.push_back(event_of(*event, std::move(point)));
         return true;
       }
-      observer->observe_next(now, result.points);
+      observer->observe_next(now, points_, result.points);
       result.points.back().over = now.parameter;
       course.emplace_back(now.arclength, result.points.back().amplitude);
       progress_.points = static_cast<long>(result.points.size());
@@ -210,6 +212,7 @@ class Traces {
   scene::FrequencyUnit unit_;
   double omega_;
   StabilityRequest stability_;
+  Observed points_, events_;
   const control::Control control_;
   control::Progress progress_;
 };

@@ -20,6 +20,7 @@ struct ParameterRange {
   double from = 0, to = 0, frequency = 0;
   StabilityRequest stability{};  // of the points, and their bifurcations
   ResponseMethod method = ResponseMethod::harmonic_balance;
+  Observed points{}, events = everything;  // no keys: what is asked for
   friend bool operator==(const ParameterRange&, const ParameterRange&) = default;
 };
 

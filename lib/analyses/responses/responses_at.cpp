@@ -152,7 +152,7 @@ continuation::Branch observe_one(const std::shared_ptr<const hbm::HbmProblem>& p
   const Vector p = hbm::parameters_at(*problem, omega);
   auto branch = continuation::trace(problem, {u, p, model::frequency, 1}, options, {},
                                     [&](const continuation::Accepted& now, const continuation::Event*) {
-                                      point = observer.observe(now, PointCondition::parameter, true);
+                                      point = observer.observe(now, PointCondition::parameter, everything);
                                       return false;
                                     });
   add_scene_hint(problem->model(), p, branch);

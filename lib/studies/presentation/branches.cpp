@@ -20,6 +20,7 @@ constexpr int multipliers_in_tables = 2;
 using observables::ResponseBranch;
 using observables::ResponseEvent;
 using observables::ResponsePoint;
+using observables::Solution;
 
 bool has_maxima(const ResponseBranch& branch) {
   return !branch.points.empty() && !std::isnan(branch.points.front().maxima.velocity);
@@ -63,12 +64,12 @@ struct BranchTables {
           [point](const auto& at) { return point(at).location_estimate; });
     };
     if (asked.maxima && !asked.mode)  // a curve of special points
-      add_location(points, [](const ResponsePoint& at) -> const ResponsePoint& { return at; });
+      add_location(points, [](const ResponsePoint& at) -> const Solution& { return at; });
     const bool of_curve = asked.maxima && !asked.mode;
     asked.maxima = !asked.mode;
     events.add(responses(scene, asked), [](const ResponseEvent& event) { return &event.point; });
     if (!asked.mode)
-      add_location(events, [](const ResponseEvent& at) -> const ResponsePoint& { return at.point; });
+      add_location(events, [](const ResponseEvent& at) -> const Solution& { return at.point; });
     if (of_curve)
       events.add(
           {"parameter_estimate"}, "",

@@ -46,7 +46,7 @@ results::Header header(const scene::Scene& scene);
 results::Object stop(const observables::Stop& stop);
 results::Object solver(const observables::SolverSummary& summary);
 
-/// The doubt about a motion that stops (ResponsePoint::stops); empty: none.
+/// The doubt about a motion that stops (Solution::stops); empty: none.
 std::string doubt_of_stops(const std::string& element);
 
 /// Where the responses of a branch are unstable, a sentence; empty: nowhere, or not known.

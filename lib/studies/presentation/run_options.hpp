@@ -2,6 +2,9 @@
 
 #include <arcslip/control/run_control.hpp>
 
+#include <string>
+#include <vector>
+
 namespace arcslip::studies {
 
 /// Options for the extent of the results.
@@ -10,6 +13,9 @@ struct RunOptions {
   // Without points: branches are traced in steps as long as their events allow, where no accuracy is asked of
   // all points.
   bool events_only = false;
+  // Of branches of responses: the columns of their points and of their events that are read, with or without
+  // "elements"; empty: all. What only others need is not computed.
+  std::vector<std::string> point_columns{}, event_columns{};
   bool coefficients = false;  // points and events with the Fourier coefficients a_n, b_n of the response
   bool motions = false;       // results::End::motion, which keeps the unknowns of points and events
   bool figures = false;
