@@ -197,10 +197,14 @@ Arrival DiagramTracer::pass(const Event& event, const Beginning& from, int branc
   const std::size_t arrived = half_towards(junction, -crossing.tangents.front());
   const std::size_t opposite = half_towards(junction, beyond);
   if (junction.half_branches[arrived].branch >= 0) return Arrival::repeated;
-  junction.half_branches[arrived].branch = branch;
+  const auto set_branch = [&](HalfBranch& half) {
+    half.branch = branch;
+    half.untraced.clear();
+  };
+  set_branch(junction.half_branches[arrived]);
   if (from.origin == k && simple(event) && with_->dot(beyond, from.start.tangent) > limits_.same_direction)
     return Arrival::home;
-  if (junction.half_branches[opposite].branch < 0) junction.half_branches[opposite].branch = branch;
+  if (junction.half_branches[opposite].branch < 0) set_branch(junction.half_branches[opposite]);
   return Arrival::first;
 }
 

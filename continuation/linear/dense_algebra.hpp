@@ -145,6 +145,7 @@ Eigen::VectorXcd finite_eigenvalues(const Matrix& A, const Matrix& B);
 
 /// Y of the Lyapunov equation T Y + Y T^T + C C^T = 0, by the complex Schur form of T (R. H. Bartels, G. W.
 /// Stewart, Comm. ACM 15, 1972). Sums of two eigenvalues that are 0 to rounding count as that rounding.
+/// Throws std::runtime_error where the form does not converge.
 Matrix lyapunov_solution(const Matrix& T, const Matrix& C);
 
 /// Eigenvalues of matrices of one size, balanced; no allocation after the first.

@@ -105,11 +105,11 @@ Eigen::VectorXcd finite_eigenvalues(const Matrix& A, const Matrix& B) {
 
 Matrix lyapunov_solution(const Matrix& T, const Matrix& C) {
   const Eigen::ComplexSchur<Matrix> schur(T);
-  if (schur.info() != Eigen::Success) return {};
+  if (schur.info() != Eigen::Success) throw std::runtime_error("the Schur form could not be computed");
   const Eigen::MatrixXcd &U = schur.matrixU(), &R = schur.matrixT();
   const Eigen::MatrixXcd D = U.adjoint() * C;
   const double rounding = 2.2e-16 * T.norm();
-  Eigen::MatrixXcd Y = -D * D.adjoint();  // of R Y + Y R^H = Y, from the last column on
+  Eigen::MatrixXcd Y = -D * D.adjoint();  // becomes that of R Y + Y R^H + D D^H = 0, from the last column on
   for (Eigen::Index j = T.rows() - 1; j >= 0; --j) {
     Eigen::MatrixXcd shifted = R;
     for (auto& each : shifted.diagonal()) {

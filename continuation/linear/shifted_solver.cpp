@@ -8,8 +8,9 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr int eigenpair_steps = 3;            // of borders: each squares the error of the vectors
-constexpr double least_eigenoverlap = 1e-10;  // |w^H v|, |v| = |w| = 1
+constexpr double rounding_of_jacobian = 1e-14;  // of an entry, relative
+constexpr int eigenpair_steps = 3;              // of borders: each squares the error of the vectors
+constexpr double least_eigenoverlap = 1e-10;    // |w^H v|, |v| = |w| = 1
 
 // The row of a border, relative to J: made small, it is no pivot before nothing else is left, as a full row
 // that is one early fills all that follow (klu.cpp). It only changes the length of what a unit right-hand
@@ -43,7 +44,7 @@ ComplexSparseLU::Matrix bordered(const SparseMatrix& J, Complex shift, const Com
 
 }  // namespace
 
-ShiftedSolver::ShiftedSolver(const Jacobian& J, double relative_error) : relative_error_(relative_error) {
+ShiftedSolver::ShiftedSolver(const Jacobian& J, Matrix errors) : errors_(std::move(errors)) {
   if (const auto* full = std::get_if<Matrix>(&J)) {
     balanced_ = *full;
     balance(balanced_, D_);
@@ -132,8 +133,11 @@ ComplexVector ShiftedSolver::apply(const ComplexVector& x) const {
 
 Vector ShiftedSolver::error_of_apply(const ComplexVector& x) const {
   const Vector sizes = x.cwiseAbs();
-  if (!dense_) return relative_error_ * (sparse_.cwiseAbs() * sizes);
-  return relative_error_ * (balanced_.cwiseAbs() * sizes.cwiseQuotient(D_)).cwiseProduct(D_);
+  Vector sum = dense_ ? (balanced_.cwiseAbs() * sizes.cwiseQuotient(D_)).cwiseProduct(D_).eval()
+                      : Vector(sparse_.cwiseAbs() * sizes);
+  sum *= rounding_of_jacobian;
+  if (errors_.size() > 0) sum += errors_ * sizes;
+  return sum;
 }
 
 // In the balanced coordinates D^-1 v, D w, whose borders are D^-1 b = D w and D c = D^-1 v.

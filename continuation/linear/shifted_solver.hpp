@@ -19,13 +19,11 @@ namespace arcslip::continuation {
 using Complex = std::complex<double>;
 using ComplexVector = Eigen::VectorXcd;
 
-/// Relative error of the entries of an exact J.
-inline constexpr double rounding_of_jacobian = 1e-14;
-
 class ShiftedSolver {
  public:
-  /// J is copied. relative_error: of its entries. Throws std::invalid_argument for an operator.
-  explicit ShiftedSolver(const Jacobian& J, double relative_error = rounding_of_jacobian);
+  /// J is copied. errors: of its entries beyond rounding, n x n, or empty. Throws std::invalid_argument for
+  /// an operator.
+  explicit ShiftedSolver(const Jacobian& J, Matrix errors = {});
 
   /// False: singular to the last bit.
   bool factorize(Complex shift);
@@ -47,7 +45,7 @@ class ShiftedSolver {
   bool factorize_sparse(Complex shift, const ComplexVector* b, const ComplexVector* c);
 
   Eigen::Index n_ = 0;
-  double relative_error_;
+  Matrix errors_;
   bool dense_ = true;
   Matrix balanced_;
   Vector D_;  // balanced = D^-1 J D

@@ -36,7 +36,7 @@ class HomologicalEquations {
  public:
   HomologicalEquations(Evaluator& at, const PlaceOfForms& place) : forms_(at, place), n_(place.u.size()) {
     J_ = dense_jacobian(forms_);
-    if (J_) solver_.emplace(*J_, forms_.error_of_jacobian());
+    if (J_) solver_.emplace(*J_, forms_.errors_of_jacobian());
   }
 
   std::optional<Eigenpair> pair_near(Complex value) {
@@ -69,6 +69,7 @@ class HomologicalEquations {
   bool usable() const { return J_.has_value(); }
   ShiftedSolver& solver() { return *solver_; }
   const Matrix& J() const { return *J_; }
+  const Matrix& errors_of_jacobian() const { return forms_.errors_of_jacobian(); }
 
  private:
   ComplexVector extended(const ComplexVector& v) const {
@@ -140,7 +141,7 @@ HopfWithPair hopf_with_pair(Evaluator& at, const PlaceOfForms& place, double fre
   hopf.frequency = pair->value.imag();
   hopf.real = pair->right.real();
   hopf.imaginary = pair->right.imag();
-  const Jacobian J = equations.J();
+  const KnownJacobian J{equations.J(), equations.errors_of_jacobian()};
   add_normal_form(at, place, hopf, &J);
   return {std::move(hopf), pair};
 } catch (const std::exception&) {

@@ -200,14 +200,13 @@ std::optional<Jacobian> DirectionalDerivatives::jacobian() {
     return known ? std::optional(at_.jacobian()) : std::nullopt;
   }
   Matrix J(n_, n_);
-  double largest_error = 0;
+  errors_of_jacobian_.resize(n_, n_);
   for (Eigen::Index i = 0; i < n_; ++i) {
     const RealForm column = along(1, Vector::Unit(n_ + 1, i));
     if (!column.value.allFinite()) return {};
     J.col(i) = column.value;
-    largest_error = std::max(largest_error, column.error.norm());
+    errors_of_jacobian_.col(i) = column.error;
   }
-  error_of_jacobian_ = std::max(rounding_of_jacobian, largest_error / J.norm());
   return J;
 }
 

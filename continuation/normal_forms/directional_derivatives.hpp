@@ -18,7 +18,6 @@
 //    4 D^2 a b   = D^2 (a + b)^2 - D^2 (a - b)^2
 //   24 D^3 a b c = D^3 (a + b + c)^3 - D^3 (a + b - c)^3 - D^3 (a - b + c)^3 + D^3 (a - b - c)^3.
 
-#include <arcslip/continuation/linear/shifted_solver.hpp>
 #include <arcslip/continuation/problem/extrapolation.hpp>
 #include <arcslip/continuation/problem/problem.hpp>
 
@@ -62,8 +61,8 @@ class DirectionalDerivatives {
   /// J at the place: the problem's, or, where that consists of differences, extrapolated ones. Nothing for an
   /// operator.
   std::optional<Jacobian> jacobian();
-  /// Of its entries, relative: rounding, or what the extrapolation estimates.
-  double error_of_jacobian() const { return error_of_jacobian_; }
+  /// Of the entries of the last one, beyond rounding: what the extrapolation estimates; empty: none.
+  const Matrix& errors_of_jacobian() const { return errors_of_jacobian_; }
   /// F_p of the free parameter, the same way.
   RealForm parameter_derivative();
 
@@ -79,7 +78,7 @@ class DirectionalDerivatives {
   Eigen::Index n_;
   std::uint64_t piece_ = 0;
   bool usable_ = false;
-  double error_of_jacobian_ = rounding_of_jacobian;
+  Matrix errors_of_jacobian_;
   Vector sizes_, u_, p_, dF_;
 };
 

@@ -17,11 +17,11 @@ class HopfForm {
  public:
   HopfForm(Evaluator& at, const PlaceOfForms& place) : forms_(at, place), n_(place.u.size()) {}
 
-  // known: J, or null.
-  bool compute(Hopf& hopf, const Jacobian* known = nullptr) {
+  // known: J with its errors, or null.
+  bool compute(Hopf& hopf, const KnownJacobian* known = nullptr) {
     const auto J = known ? std::nullopt : forms_.jacobian();
     if (!known && !J) return false;
-    ShiftedSolver solver(known ? *known : *J, forms_.error_of_jacobian());
+    ShiftedSolver solver(known ? known->J : *J, known ? known->errors : forms_.errors_of_jacobian());
     const ComplexVector z = hopf.real.cast<Complex>() + Complex(0, 1) * hopf.imaginary.cast<Complex>();
     const auto pair = refined_eigenpair(solver, Complex(0, hopf.frequency), z);
     if (!pair) return false;
@@ -122,7 +122,7 @@ void choose_middle(Evaluator& at, const PlaceOfForms& place, const Hopf& given, 
 
 }  // namespace
 
-void add_normal_form(Evaluator& at, const PlaceOfForms& place, Hopf& hopf, const Jacobian* J) try {
+void add_normal_form(Evaluator& at, const PlaceOfForms& place, Hopf& hopf, const KnownJacobian* J) try {
   const Hopf given = hopf;
   if (HopfForm(at, place).compute(hopf, J) && at.by_differences().jacobian)
     choose_middle(at, place, given, hopf);

@@ -17,10 +17,16 @@
 
 namespace arcslip::continuation {
 
+/// DirectionalDerivatives::jacobian() of a place, with errors_of_jacobian().
+struct KnownJacobian {
+  Jacobian J;
+  Matrix errors;
+};
+
 /// Adds the normal form to a Hopf point with its frequency and vectors. The evaluator is moved. Coefficients
 /// stay unknown where F has no derivatives within its piece, J is an operator or singular, or the pair is not
-/// apart from the others. J by differences is replaced by extrapolated ones. J:
-/// DirectionalDerivatives::jacobian() of the place, if known. Not installed.
-void add_normal_form(Evaluator& at, const PlaceOfForms& place, Hopf& hopf, const Jacobian* J = nullptr);
+/// apart from the others. J by differences is replaced by extrapolated ones. J: of
+/// the place, if known. Not installed.
+void add_normal_form(Evaluator& at, const PlaceOfForms& place, Hopf& hopf, const KnownJacobian* J = nullptr);
 
 }  // namespace arcslip::continuation

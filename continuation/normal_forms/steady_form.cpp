@@ -58,7 +58,7 @@ Coefficient SteadyForm::unfolding() {
 Coefficient SteadyForm::cubic() {
   const auto J = usable_ ? forms_.jacobian() : std::nullopt;
   if (!J) return {};
-  ShiftedSolver solver(*J, forms_.error_of_jacobian());
+  ShiftedSolver solver(*J, forms_.errors_of_jacobian());
   if (!solver.factorize(Complex(0), q_.cast<Complex>(), w_.cast<Complex>())) return {};
   ComplexForm rhs{ComplexVector::Zero(n_ + 1), Vector::Zero(n_ + 1)};
   rhs.value.head(n_) = -B().value.cast<Complex>();

@@ -185,9 +185,9 @@ struct Event {
 ///                    an exception, which the message quotes. value is the last step tried, limit the smallest.
 ///   monitor_failed   a function of a monitor threw: the message names the monitor and quotes the exception. value is
 ///                    the parameter.
-///   known_branch     the branch met another one that was traced before: of a diagram only.
 ///   wrong_jacobian   the branch cannot be continued, and an entry of J or dF/dp, named by the message, is wrong: value
 ///                    is the relative error of the entry, limit the tolerance.
+///   known_branch     the branch met another one that was traced before: of a diagram only.
 // clang-format on
 enum class StopReason {
   boundary,

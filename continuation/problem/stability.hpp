@@ -36,8 +36,8 @@ struct Spectrum {
   bool complete = false;                          // `unstable` is their number. False: those found
   std::vector<AxisRange> found_near;              // where eigenvalues were looked for; all of it if complete
   std::optional<std::complex<double>> nearest{};  // to the imaginary axis, Im >= 0, by the second opinion,
-                                                  // among those counted. None: not asked for, or it does not
-                                                  // converge, as where many are equally far from the axis
+                                                  // among those counted. None: not asked for, not found by
+                                                  // shifts, or it does not converge, as where many are near
 };
 
 /// Which points have a spectrum. automatic: all, up to StabilityOptions::every_point unknowns; beyond, the

@@ -91,7 +91,8 @@ const Jacobian& LyapunovSchmidt::regular_jacobian() {
   if (added_ == 0) return at_->jacobian();
   const SparseMatrix& J = std::get<SparseMatrix>(at_->jacobian());
   const double size = J.nonZeros() > 0 ? J.coeffs().cwiseAbs().maxCoeff() : 1;
-  const Matrix right = orthonormal_columns(C_.topRows(n_)).leftCols(m_);
+  const Matrix right = scale_.head(n_).cwiseAbs2().asDiagonal() * C_.topRows(n_) *
+                       orthogonal_complement(Matrix(C_.row(n_).transpose()));  // null J, without the tangent
   const auto rows = independent_rows(W_), columns = independent_rows(right);
   SparseMatrix sum = J;
   for (Eigen::Index k = 0; k < m_; ++k) {

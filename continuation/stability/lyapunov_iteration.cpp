@@ -28,7 +28,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int most_iterations = 6;
+constexpr int most_iterations = 6, most_without_growth = 3;
 constexpr double lyapunov_tolerance = 1e-5;  // of the residual, relative to C C^T
 constexpr double no_new_direction = 1e-12;   // what is left of a vector of the space: rounding
 constexpr double infinite_mu = 1e-14;        // of 1 / mu, relative to the largest: below, M is singular
@@ -93,10 +93,10 @@ class RationalKrylov {
     }
   }
 
-  // log of |prod (s - pole)^block / prod (s - ritz)|.
+  // log of |prod (s - pole)^block / prod (s - ritz)|, with unstable Ritz values mirrored as well.
   double gain(Complex s, const std::vector<Complex>& ritz) const {
     double sum = 0;
-    for (const Complex& mu : ritz) sum -= std::log(std::abs(s - mu));
+    for (const Complex& mu : ritz) sum -= std::log(std::abs(s - Complex(-std::abs(mu.real()), mu.imag())));
     for (const Complex& pole : poles_) {
       sum += static_cast<double>(block_) * std::log(std::abs(s - pole));
       if (pole.imag() != 0) sum += static_cast<double>(block_) * std::log(std::abs(s - std::conj(pole)));
@@ -106,7 +106,9 @@ class RationalKrylov {
 
   Complex next_pole(const std::vector<Complex>& ritz) const {
     std::vector<Complex> candidates;
-    for (const Complex& mu : ritz) candidates.emplace_back(std::abs(mu.real()), std::abs(mu.imag()));
+    for (const Complex& mu : ritz)  // an unstable one may be an eigenvalue
+      if (mu.real() < 0) candidates.emplace_back(-mu.real(), std::abs(mu.imag()));
+    if (candidates.empty()) candidates.emplace_back(2 * std::abs(ritz.front()));
     std::sort(candidates.begin(), candidates.end(),
               [](const Complex& a, const Complex& b) { return std::abs(a) < std::abs(b); });
     for (std::size_t i = 1, ends = candidates.size(); i < ends; ++i) {
@@ -139,10 +141,11 @@ struct Ritz {
   Eigen::VectorXcd vector;
 };
 
-// Next to the axis, of the space in which the Lyapunov equation for x is solved.
+// Next to the axis, of the space in which the Lyapunov equation for x is solved. Nothing: it could not be.
 std::optional<Ritz> ritz_next_to_axis(ShiftedInverse& shifted, const ShiftedInverse& S,
                                       const Eigen::VectorXcd& x, Eigen::Index most) {
   RationalKrylov space(shifted, S, x, most);
+  int without_growth = 0;
   for (;;) {
     const Matrix T = space.projected();
     const Modes of_T = modes(T);
@@ -156,9 +159,12 @@ std::optional<Ritz> ritz_next_to_axis(ShiftedInverse& shifted, const ShiftedInve
       if (std::abs(mu.real()) < std::abs(nearest.value.real())) nearest = {mu, of_T.V.col(i)};
     }
     if (ritz.empty()) return {};
-    if (space.residual(T) > lyapunov_tolerance && !space.is_full() && space.extend(ritz)) continue;
-    nearest.vector = space.vector(nearest.vector);
-    return nearest;
+    if (space.residual(T) <= lyapunov_tolerance) {
+      nearest.vector = space.vector(nearest.vector);
+      return nearest;
+    }
+    if (space.is_full()) return {};
+    if (!space.extend(ritz) && ++without_growth > most_without_growth) return {};
   }
 }
 
@@ -169,7 +175,9 @@ std::optional<AxisEigenvalue> nearest_to_axis(const SparseMatrix& J, const Spars
                                               const Eigen::VectorXcd& start) try {
   ShiftedInverse S(J, M), shifted(J, M);
   S.set_shift(0, 0);
-  Eigen::VectorXcd x = start.size() == J.rows() && start.norm() > 0 ? start : random_start(J.rows());
+  // Begun with an eigenvector alone, the iteration would stay there when others have come nearer to the axis.
+  Eigen::VectorXcd x = random_start(J.rows()).normalized();
+  if (start.size() == J.rows() && start.norm() > 0) x += start.normalized();
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const auto ritz =
         ritz_next_to_axis(shifted, S, x, std::min<Eigen::Index>(options.lyapunov_space, J.rows()));

@@ -242,8 +242,15 @@ void SpectrumFinder::look_at_any_frequency(const SparseMatrix& J, ShiftedInverse
   missed_.w = nearest->value.imag();
   look_near(inverse, missed_, found);
   found.found_near = joined(std::move(found.found_near));
-  for (const auto& each : {nearest->value, std::conj(nearest->value)})
-    if (!is_among(found.leading, each)) found.leading.push_back(each);
+  const auto same = std::find_if(found.leading.begin(), found.leading.end(), [&](const auto& each) {
+    return std::abs(each - nearest->value) <= std::sqrt(options_.tolerance) * std::abs(each);
+  });
+  if (same != found.leading.end()) {  // by the shift, which is more accurate
+    found.nearest = *same;
+    return;
+  }
+  found.leading.push_back(nearest->value);
+  if (nearest->value.imag() > 0) found.leading.push_back(std::conj(nearest->value));
 }
 
 Spectrum SpectrumFinder::by_shifts(const SparseMatrix& J) {

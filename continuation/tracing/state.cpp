@@ -213,6 +213,7 @@ void fields_of_state(auto& visit, auto& x) {
   newer_field(visit, "curve_error", x.curve_error), newer_field(visit, "expected", x.expected);
   newer_field(visit, "transverse", x.transverse), newer_field(visit, "accepted", x.accepted);
   newer_field(visit, "left_at_start", x.left_at_start);
+  newer_field(visit, "largest_accepted", x.largest_accepted);
 }
 
 template <class Visit>

@@ -34,9 +34,10 @@ struct State {
   Vector p;          // all parameters; the free one at its start value
   CurvePoint start;  // the first point
   CurvePoint here, before;
-  Vector accepted;          // state of the problem that `here` left
-  Vector left_at_start{};   // that of the first point
-  bool has_before = false;  // so that the cubic predictor applies
+  Vector accepted;              // state of the problem that `here` left
+  Vector left_at_start{};       // that of the first point
+  double largest_accepted = 0;  // the largest norm of these states
+  bool has_before = false;      // so that the cubic predictor applies
   bool begun = false, ended = false;
   double step = 0, last_step = 0;  // to try next; from `before` to `here`
   double curve_error = 0;          // of the curve there, relative to its tolerance

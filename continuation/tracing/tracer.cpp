@@ -22,7 +22,8 @@ constexpr double parameter_rounding = 1e-9;    // relative changes of p below th
 constexpr double kink_turn = 0.7, kink_step = 0.25;
 constexpr double endless_tail = 1e-12;  // of the parameter's scale: end this close to an unreached bound
 constexpr double tail_before = 1e-9;    // with its last point this close
-constexpr double same_state = 1e-6;     // change of the state of a problem over a closed loop, relative
+constexpr double same_state =
+    1e-6;  // change of the state of a problem over a closed loop, relative to the largest one on it
 constexpr double been_away = 3;  // roundings of the distance from the start: closer, it has not returned
 constexpr long first_looked_at = 3, each_looked_at = 16;  // of points accepted by an expected error
 constexpr double large_contraction = 0.1;
@@ -348,7 +349,12 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::close_loop() {
   for (std::size_t k = 0; k < trial_.corners.size() && s_.here.arclength > 0; ++k) {
     const CurvePoint& at = trial_.corners[k].before;
     const double miss = distance(main_, at.v, s_.start.v);
-    if (miss > rounding || at.arclength < been_away * rounding || !leaves_the_state_of_the_start()) continue;
+    if (miss > rounding || at.arclength < been_away * rounding) continue;
+    if (!leaves_the_state_of_the_start()) {
+      main_.border_row(place.tangent, row_);
+      if (!main_.linearize(place.v, row_)) return refuse(Rejected::singular, 0, 0);
+      continue;
+    }
     place = s_.start;
     place.arclength = at.arclength;
     trial_.corners.resize(k);
@@ -363,8 +369,8 @@ std::optional<Tracer::Impl::Outcome> Tracer::Impl::close_loop() {
 // another path.
 bool Tracer::Impl::leaves_the_state_of_the_start() {
   if (s_.accepted.size() == 0) return true;
-  return main_.next_state(s_.start.v, next_state_) &&
-         (next_state_ - s_.left_at_start).norm() <= same_state * s_.left_at_start.norm();
+  return s_.left_at_start.size() == s_.accepted.size() && main_.next_state(s_.start.v, next_state_) &&
+         (next_state_ - s_.left_at_start).norm() <= same_state * s_.largest_accepted;
 }
 
 bool Tracer::Impl::accept() {
@@ -400,6 +406,7 @@ bool Tracer::Impl::accept_state() {
                "the state that the point at " + text(s_.here.v[n_]) + " leaves could not be computed" +
                    because(main_.failure()));
   if (s_.left_at_start.size() == 0) s_.left_at_start = next_state_;
+  s_.largest_accepted = std::max(s_.largest_accepted, next_state_.norm());
   s_.accepted = next_state_;
   main_.set_state(s_.accepted);
   events_.set_state(s_.accepted);

@@ -33,22 +33,17 @@ std::string words_of(const continuation::Event& event) {
   return &kind == &kinds.front() ? event.monitor : std::string(kind.words);
 }
 
-constexpr double same_branch_point = 1e-4;  // relative: well above what places of one branch point scatter by
-
-// The number of the branch point of a diagram that an event is, from 1; 0: none.
+// The number of the branch point of a diagram that an event is, from 1: the nearest one; 0: none. Every
+// branch point of its branches is in the list.
 int number_of(const continuation::Event& event, const std::vector<continuation::Junction>& branch_points) {
-  if (!std::holds_alternative<continuation::BranchPoint>(event.data)) return 0;
-  const Point& at = event.point;
-  int nearest = 0;
-  double least = same_branch_point * (1 + at.u.norm() + std::abs(at.parameter));
-  for (std::size_t k = 0; k < branch_points.size(); ++k) {
-    const double distance =
-        (branch_points[k].u - at.u).norm() + std::abs(branch_points[k].parameter - at.parameter);
-    if (distance >= least) continue;
-    least = distance;
-    nearest = static_cast<int>(k) + 1;
-  }
-  return nearest;
+  if (!std::holds_alternative<continuation::BranchPoint>(event.data) || branch_points.empty()) return 0;
+  const auto distance = [&](const continuation::Junction& other) {
+    return std::hypot((other.u - event.point.u).norm(), other.parameter - event.point.parameter);
+  };
+  const auto nearest =
+      std::min_element(branch_points.begin(), branch_points.end(),
+                       [&](const auto& one, const auto& other) { return distance(one) < distance(other); });
+  return static_cast<int>(nearest - branch_points.begin()) + 1;
 }
 
 std::vector<BranchPart> labelled(std::vector<BranchPart> parts,

@@ -433,9 +433,8 @@ Observed needed_by(std::span<const std::string> columns) {
                                               "coefficients", "kind",      "nonsmooth", "located",   "after"};
   Observed all = solution_alone;
   for (const std::string_view column : columns) {
-    const bool is_estimate =
-        column.find("_estimate") != std::string_view::npos || column == "truncation_flagged";
-    const bool is_of_stick = column.ends_with("stick_estimate");
+    const bool is_estimate = column.ends_with("_estimate") || column == "truncation_flagged";
+    const bool is_of_stick = column.ends_with(".stick_estimate");
     const bool is_maximum = is_of_stick || column.find("maxima.") != std::string_view::npos;
     all.estimates = all.estimates || is_estimate;
     all.maxima = all.maxima || is_maximum;

@@ -146,6 +146,9 @@ struct Observed {
   bool maxima = false;    // over the period, the most expensive, with what the estimates say of the stick
 
   friend bool operator==(const Observed&, const Observed&) = default;
+  friend Observed operator|(const Observed& a, const Observed& b) {
+    return {a.estimates || b.estimates, a.motion || b.motion, a.maxima || b.maxima};
+  }
 };
 inline constexpr Observed solution_alone{.estimates = false, .motion = false};
 inline constexpr Observed everything{.maxima = true};

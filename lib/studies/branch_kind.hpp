@@ -54,7 +54,10 @@ Range as_read(Range range, const RunOptions& options, bool has_accuracy) {
   if constexpr (requires { range.steps; })
     if (options.events_only && !has_accuracy) range.steps = observables::Steps::events;
   if constexpr (requires { range.points; }) {
-    if (!options.point_columns.empty()) range.points = observables::needed_by(options.point_columns);
+    if (!options.point_columns.empty() && !options.figures) {
+      range.points = observables::needed_by(options.point_columns);
+      range.points.maxima = false;  // of events alone
+    }
     if (!options.event_columns.empty()) range.events = observables::needed_by(options.event_columns);
     if (!options.points && !options.figures && !options.motions) range.points = observables::solution_alone;
     range.events.estimates = range.events.estimates || has_accuracy;

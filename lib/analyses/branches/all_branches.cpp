@@ -230,7 +230,7 @@ class AllBranches {
     run.course.points.emplace_back(
         -entry->step, run.observer->observe({leaves.u, p, leaves.half_branches[way.half].direction, 0,
                                              with.evaluator(), with.factors(), omega, with.scratch()},
-                                            PointCondition::branch_point, f_.events));
+                                            PointCondition::branch_point, f_.points | f_.events));
     set_apart(event_kinds::branch_point, run.course.points.front().second);
     estimate_as_at(leaves, run.course.points.front().second);
     trace(continuation::start_at(*entry, p, model::frequency), entry->step, run);

@@ -108,7 +108,7 @@ class Contact3dElement final : public Element {
 
  private:
   void find(In u, Fields fields) {
-    u_ = u;
+    u_.setConstant(std::numeric_limits<double>::quiet_NaN());
     std::copy(fields.begin(), fields.end(), fields_);
     const double k_t = fields[contact_field::tangential_stiffness],
                  mu = fields[contact_field::friction_coefficient];
@@ -134,6 +134,7 @@ class Contact3dElement final : public Element {
       stretch_.move_to(disc_, normal_.closed(), normal_.opens());
       if (k_ > 0) F_.head(2 * c_) = k_ * stretch_.coefficients();
     }
+    u_ = u;
   }
 
   // Next to full stick the rest is hardly held across the slip: its derivative is the ratio of two small

@@ -14,7 +14,7 @@ struct RunOptions {
   // all points.
   bool events_only = false;
   // Of branches of responses: the columns of their points and of their events that are read, with or without
-  // "elements"; empty: all. What only others need is not computed.
+  // "elements"; empty: all. What only others need is not computed, and their columns are not to be written.
   std::vector<std::string> point_columns{}, event_columns{};
   bool coefficients = false;  // points and events with the Fourier coefficients a_n, b_n of the response
   bool motions = false;       // results::End::motion, which keeps the unknowns of points and events

@@ -339,6 +339,16 @@ TEST_CASE("what a search finds around a fold between two points is not another b
   CHECK(diagram.branches.size() == 1);
 }
 
+TEST_CASE(
+    "a half-branch beyond the depth that a search has come upon has a branch, and no reason against it") {
+  const Diagram diagram =
+      trace_diagram(pitchfork(), at(0, -0.93), window(-1, 1), {.depth = 0, .searches = {0.5}});
+  REQUIRE(diagram.branch_points.size() == 1);
+  REQUIRE(diagram.branches.size() == 2);
+  CHECK(all_traced(diagram.branch_points[0]));
+  for (const HalfBranch& half : diagram.branch_points[0].half_branches) CHECK(half.untraced.empty());
+}
+
 TEST_CASE("a branch that is found by a search is left at its branch points, too") {
   // (u + 2)(l v - v^3), v = u - 3: the line u = -2, and a pitchfork at u = 3.
   const auto apart = from_functions(1, {parameter("l", 0)}, [](In u, In p, Out F) {

@@ -295,8 +295,25 @@ TEST_CASE("without a nearest eigenvalue that converges there is no second opinio
   options.second_opinion = true;
   options.lyapunov_space = 8;
   const Spectrum found = SpectrumFinder(options).at(sparse(1200, entries));
-  if (found.nearest) CHECK(std::abs(found.nearest->real() + 1) < 1e-6);  // one of them
+  CHECK(!found.nearest);
   CHECK(found.unstable == 0);
+}
+
+TEST_CASE("the second opinion is nearest to the axis also where others are unstable, or were found before") {
+  StabilityOptions options;
+  options.shifts = 1;
+  options.near_shift = 3;
+  options.krylov = 30;
+  options.second_opinion = true;
+  SpectrumFinder finder(options);
+  for (const double w : {50.0, 300.0, 20.0}) {  // one after the other
+    CAPTURE(w);
+    SparseMatrix J = reals_and_pair(600, -1e-3, w);
+    J.coeffRef(7, 7) = 5.5;
+    const Spectrum found = finder.at(J);
+    REQUIRE(found.nearest);
+    CHECK(std::abs(*found.nearest - std::complex<double>(-1e-3, w)) < 1e-7 * w);
+  }
 }
 
 TEST_CASE("no eigenvalue is missing within the range of a shift, also where those next to it converge last") {

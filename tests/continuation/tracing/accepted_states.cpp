@@ -410,6 +410,13 @@ TEST_CASE("a closed curve of a problem whose state has changed on the way is not
   CHECK(counted.points.size() == 400);
   const Branch same = trace(circle([](In, In, In state, Out next) { next[0] = state[0]; }), start, options);
   CHECK(same.stop.reason == StopReason::closed);
+  // Of a state that is 0 at the start but for rounding.
+  const Branch back = trace(circle([](In u, In p, In, Out next) {
+                              next[0] =
+                                  (u[0] - 0.8) * (u[0] - 0.8) + (p[0] - 0.6) * (p[0] - 0.6) + 1e-17 * u[0];
+                            }),
+                            start, options);
+  CHECK(back.stop.reason == StopReason::closed);
   CHECK(same.points.size() < 200);
 }
 

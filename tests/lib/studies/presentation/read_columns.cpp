@@ -126,6 +126,7 @@ TEST_CASE("the parts that columns need") {
     CHECK(needed(column) == observables::solution_alone);
   CHECK(needed("truncation_estimate") == Observed{.estimates = true, .motion = false});
   CHECK(needed("pad.stick_percent") == Observed{.estimates = false, .motion = true});
+  CHECK(needed("pad_estimate.stick_percent") == Observed{.estimates = false, .motion = true});
   CHECK(needed("elements.pad.stick_estimate") == observables::everything);
   CHECK(needed("maxima.velocity") == Observed{.estimates = false, .motion = true, .maxima = true});
   CHECK(needed("responses.second.amplitude") == Observed{.estimates = false, .motion = true});
