@@ -10,6 +10,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -39,6 +40,8 @@ std::optional<double> parsed_number(std::string_view text) {
 }
 
 using Axis = std::array<double, 3>;
+
+constexpr std::array<const char*, 3> components = {".x", ".y", ".z"};  // of a node
 
 double dot(const Axis& a, const Axis& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -216,19 +219,51 @@ class PatchRows {
     double weight;
   };
 
+  // The component of a node is one of its degrees of freedom.
+  bool is_node(const std::string& name) const {
+    return std::any_of(components.begin(), components.end(),
+                       [&](const char* component) { return dofs_.index.contains(name + component); });
+  }
+
+  // "a1", "0.25*a1".
+  WeightedNode weighted_node(std::string_view word) const {
+    const auto star = word.find('*');
+    if (star == std::string_view::npos || is_node(std::string(word))) return {std::string(word), 1};
+    return {std::string(word.substr(star + 1)),
+            parsed_number(word.substr(0, star)).value_or(std::numeric_limits<double>::quiet_NaN())};
+  }
+
+  // What is wrong with a word among the nodes; empty if nothing is.
+  std::string objection_to_node(std::string_view word, const WeightedNode& node) const {
+    constexpr const char* wanted =
+        "names of nodes with spaces between them, each with a weight if needed, as in "
+        "0.25*a1 0.75*a2";
+    if (!(node.weight > 0)) {
+      const std::string found =
+          std::isnan(node.weight) ? shown(word.substr(0, word.find('*'))) : number_text(node.weight);
+      return "found the weight " + found + " of the node " + shown(node.name) + ", must be a number above 0";
+    }
+    if (node.name == ground || !dofs_.complete || is_node(node.name)) return {};
+    if (dofs_.index.contains(node.name)) {
+      const std::string of = node.name.substr(0, node.name.rfind('.'));
+      return "found " + shown(node.name) + ", a degree of freedom, among the nodes, must be a node" +
+             (is_node(of) ? ", as " + shown(of) : "") +
+             ": its degrees of freedom are those of its name with .x, .y, .z";
+    }
+    if (node.name.empty() || node.name.front() == '+' || node.name.front() == '-')
+      return "found " + shown(word) + " among the nodes, must be " + wanted;
+    return {};
+  }
+
   // "a1 a2", "0.25*a1 0.5*a2 0.25*a3": their mean.
   std::vector<WeightedNode> nodes(std::string_view text) {
     std::vector<WeightedNode> all;
     double sum = 0;
     for (const std::string_view word : split(text, ' ')) {
       if (word.empty()) continue;
-      WeightedNode node{std::string(word), 1};
-      if (const auto star = word.find('*'); star != std::string_view::npos)
-        if (const auto weight = parsed_number(word.substr(0, star)))
-          node = {std::string(word.substr(star + 1)), *weight};
-      if (!(node.weight > 0)) {
-        fault("found the weight " + number_text(node.weight) + " of the node " + shown(node.name) +
-              ", must be above 0");
+      WeightedNode node = weighted_node(word);
+      if (const std::string objection = objection_to_node(word, node); !objection.empty()) {
+        fault(objection);
         return {};
       }
       sum += node.weight;
@@ -241,22 +276,26 @@ class PatchRows {
     return all;
   }
 
+  void check_sides(const std::vector<WeightedNode>& own, const std::vector<WeightedNode>& against) {
+    for (const WeightedNode& node : own)
+      if (std::any_of(against.begin(), against.end(),
+                      [&](const WeightedNode& other) { return other.name == node.name; }))
+        return fault("found " + shown(node.name) + " on both sides, must be on one of them");
+  }
+
   // Of the mean displacement of the nodes, less that of those against them, along an axis.
   Direction direction_along(const Axis& axis, const std::vector<WeightedNode>& own,
                             const std::vector<WeightedNode>& against) {
-    static constexpr std::array<const char*, 3> names = {".x", ".y", ".z"};
     Direction direction;
     const auto add_all = [&](const std::vector<WeightedNode>& nodes, double sign) {
       for (const WeightedNode& node : nodes)
         for (std::size_t c = 0; c < 3; ++c)
           if (node.name != ground && axis[c] != 0 &&
-              !add_displacement(node.name + names[c], sign * node.weight * axis[c], direction))
+              !add_displacement(node.name + components[c], sign * node.weight * axis[c], direction))
             return false;
       return true;
     };
     if (!add_all(own, 1) || !add_all(against, -1)) return {};
-    std::erase_if(direction, [](const Term& term) { return term.weight == 0; });
-    if (direction.empty()) fault("found the same nodes on both sides, must be those of two surfaces");
     return direction;
   }
 
@@ -265,6 +304,7 @@ class PatchRows {
     const std::vector<WeightedNode> own = nodes(*cell(cells, "nodes")),
                                     against = nodes(cell(cells, "against").value_or(ground));
     if (own.empty() && faults_.count() == before) fault("found no nodes, must have at least one");
+    if (faults_.count() == before) check_sides(own, against);
     const auto normal = axis(cells, "normal"), along = axis(cells, "tangent");
     if (!normal && faults_.count() == before) fault("found no normal, must be three numbers");
     if (faults_.count() > before) return {};

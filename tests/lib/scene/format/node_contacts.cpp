@@ -133,13 +133,33 @@ TEST_CASE("faults of contacts by nodes name the line of the file") {
   CHECK(contains(fault_of(head + "a1,a2,0 0 1,0 0 2,1\n"),
                  line + "found the tangent \"0 0 2\", must not be along the normal"));
   CHECK(contains(fault_of(head + "-1*a1,a2,0 0 1,,1\n"),
-                 line + "found the weight -1 of the node \"a1\", must be above 0"));
-  CHECK(contains(fault_of(head + "a1 -a2,ground,0 0 1,,1\n"), line + "found \"-a2.x\", must be one of"));
+                 line + "found the weight -1 of the node \"a1\", must be a number above 0"));
+  const std::string wanted =
+      ", must be names of nodes with spaces between them, each with a weight if needed, as in 0.25*a1 "
+      "0.75*a2";
+  CHECK(
+      contains(fault_of(head + "a1 -a2,ground,0 0 1,,1\n"), line + "found \"-a2\" among the nodes" + wanted));
+  CHECK(
+      contains(fault_of(head + "a1 + a2,ground,0 0 1,,1\n"), line + "found \"+\" among the nodes" + wanted));
+  CHECK(contains(fault_of(head + "0.5*,a2,0 0 1,,1\n"), line + "found \"0.5*\" among the nodes" + wanted));
+  CHECK(contains(fault_of(head + "half*a1,a2,0 0 1,,1\n"),
+                 line + "found the weight \"half\" of the node \"a1\", must be a number above 0"));
+  CHECK(contains(fault_of(head + "*a1,a2,0 0 1,,1\n"),
+                 line + "found the weight \"\" of the node \"a1\", must be a number above 0"));
   CHECK(contains(fault_of(head + "2*3*a1,a2,0 0 1,,1\n"), line + "found \"3*a1.x\", must be one of"));
+  CHECK(contains(fault_of(head + "a1.x,a2,0 0 1,,1\n"),
+                 line +
+                     "found \"a1.x\", a degree of freedom, among the nodes, must be a node, as \"a1\": its "
+                     "degrees of freedom are those of its name with .x, .y, .z"));
+  CHECK(contains(fault_of(head + "a1,0.5*a2.z,0 0 1,,1\n"), line + "found \"a2.z\", a degree of freedom"));
   CHECK(contains(fault_of(head + "a1 ground,a2,0 0 1,,1\n"),
                  line + "found \"ground\" among other nodes, must be alone"));
   CHECK(contains(fault_of(head + "a1,a1,0 0 1,,1\n"),
-                 line + "found the same nodes on both sides, must be those of two surfaces"));
+                 line + "found \"a1\" on both sides, must be on one of them"));
+  CHECK(contains(fault_of(head + "a1 a2,0.3*a2,0 0 1,,1\n"),
+                 line + "found \"a2\" on both sides, must be on one of them"));
+  CHECK(contains(fault_of(head + "ground,ground,0 0 1,,1\n"),
+                 line + "found \"ground\" on both sides, must be on one of them"));
   CHECK(contains(fault_of(head + "a1,a9,0 0 1,,1\n"),
                  line + "found \"a9.x\", must be one of the degrees of freedom"));
 }
