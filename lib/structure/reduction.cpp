@@ -114,25 +114,21 @@ class KrylovGrowth {
   // What the space lacks of sources of vectors, next to the root of their envelope.
   struct Block {
     double left;
-    bool of_first;
+    double of_first;  // by which sources of x_b are divided, so that they weigh as much; 0: there are none
     Index from;
     MatrixXd E;
   };
 
-  // Of the coefficients of the sources of vectors, and of those of x_b if they are among them.
-  static double length_of(bool of_first, const Envelope& reached) {
-    const double length = std::max(reached.length, 1.0);
-    return of_first ? std::hypot(length, 1.0) : length;
-  }
   // Of the coefficients of one x_b in the columns of each matrix.
   double groups() const { return std::sqrt(static_cast<double>(of_.operators().size())); }
 
   // Appends to the space what the sources of x_b, of the loads and of its vectors from `from` on lead to.
   void append_block(bool of_first, Index from) {
     KrylovSources X = sources();
-    if (of_first) X.take_first(inverse_scale(P_));
     const Index old = space_.size(), count = old - from;
-    const double length = count > 0 ? length_of(of_first, reached_) : 1;
+    const double of_vectors = count > 0 ? std::max(reached_.length, 1.0) : 0,
+                 of_rows = of_first ? std::max(of_vectors, 1.0) : 0, length = std::hypot(of_rows, of_vectors);
+    if (of_first) X.take_first(inverse_scale(P_) / of_rows);
     const double limit = std::sqrt(share_of_left * accuracy_ / (amplification_ * tightening_)) /
                          (usual_blocks * length * groups());
     MatrixXd E = reached_.E.bottomRightCorner(count, count);
@@ -144,7 +140,7 @@ class KrylovGrowth {
       X.take_vectors(product(space_.V().rightCols(count), root));
     }
     if (X.count() == 0) return;
-    blocks_.push_back({append_sources(space_, of_.factor(), X, limit, most_, random_), of_first, from, E});
+    blocks_.push_back({append_sources(space_, of_.factor(), X, limit, most_, random_), of_rows, from, E});
     of_.project_from(old);
   }
 
@@ -154,12 +150,12 @@ class KrylovGrowth {
     for (const Block& block : blocks_) {
       if (block.left == 0) continue;
       const Index count = block.E.rows();
-      double length = 1;
+      double of_vectors = 0;
       if (count > 0) {
         const double larger = largest_next_to(reached.E.block(block.from, block.from, count, count), block.E);
-        length = length_of(block.of_first, reached) * std::sqrt(std::max(larger, 1.0));
+        of_vectors = std::max(reached.length, 1.0) * std::sqrt(std::max(larger, 1.0));
       }
-      sum += block.left * length * groups();
+      sum += block.left * std::hypot(block.of_first, of_vectors) * groups();
     }
     return sum;
   }
@@ -212,13 +208,19 @@ class KrylovGrowth {
     if (so_far.settled) of_.keep(first);  // what came since brings no more
   }
 
-  // The sources of all vectors once more, with what is known of their sizes now. False: nothing is new.
+  // The sources of all vectors once more, with what is known of their sizes now, and where that brings
+  // nothing those of x_b as well, more closely. False: nothing is new.
   bool tighten() {
     const Index old = space_.size();
-    tightening_ *= 4;
-    blocks_.clear();
-    append_block(true, 0);
-    if (space_.size() == old) return false;
+    if (!std::exchange(refreshed_, true)) {
+      std::erase_if(blocks_, [](const Block& block) { return block.of_first == 0; });
+      append_block(false, 0);
+    } else {
+      tightening_ *= 4;
+      blocks_.clear();
+      append_block(true, 0);
+      if (space_.size() == old) return false;
+    }
     reached_ = known_envelope();
     return true;
   }
@@ -241,6 +243,7 @@ class KrylovGrowth {
   Envelope reached_;          // of the space
   double amplification_ = 4;  // ResidualBound::amplification, about
   double tightening_ = 1;     // of what the space may lack
+  bool refreshed_ = false;    // the sources of vectors
   std::mt19937_64 random_;
 };
 
