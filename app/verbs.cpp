@@ -19,6 +19,7 @@
 #include <arcslip/results/version.hpp>
 #include <arcslip/scene/files/manifest.hpp>
 #include <arcslip/studies/highest_harmonic.hpp>
+#include <arcslip/studies/presentation/columns.hpp>
 #include <arcslip/studies/windows.hpp>
 
 #include <cstddef>
@@ -38,6 +39,15 @@ void tell_beyond_reduction(const scene::Scene& scene, const std::vector<scene::S
       tell("the study \"" + study.name + "\" has " + doubt);
 }
 
+void tell_rough_reduction(const scene::Scene& scene) {
+  if (scene.studies.empty())
+    if (const std::string doubt = studies::doubt_of_reduction(scene, {}, by_signal()); !doubt.empty())
+      tell(doubt);
+  for (const scene::Study& study : scene.studies)
+    if (const std::string doubt = studies::doubt_of_reduction(scene, study, by_signal()); !doubt.empty())
+      tell("for the study \"" + study.name + "\" " + doubt);
+}
+
 /// Proposes the windows that studies from `first` to `last` leave out. Returns a sentence for each.
 std::vector<std::string> propose_windows(scene::Scene& scene, std::size_t first, std::size_t last,
                                          const CommandOptions& options) {
@@ -53,6 +63,7 @@ std::vector<std::string> propose_windows(scene::Scene& scene, std::size_t first,
 ExitCode check(scene::Scene& scene, const CommandOptions& options) {
   propose_windows(scene, 0, scene.studies.size(), options);
   tell_beyond_reduction(scene, scene.studies);
+  tell_rough_reduction(scene);
   if (!options.quiet) {
     const auto windows = studies::windows_of(scene);
     const auto model = observables::describe_model(scene, windows, by_signal());
@@ -72,7 +83,11 @@ ExitCode reduce(const scene::Scene& scene, const CommandOptions& options) {
       options.out.empty()
           ? std::filesystem::path("out") / (std::filesystem::path(options.scene).stem().string() + "_reduced")
           : std::filesystem::path(options.out);
-  model::ReducedScene reduced = model::reduced_scene(scene, folder.string(), by_signal());
+  std::vector<double> frequencies;
+  for (const scene::Study& study : scene.studies)
+    frequencies.push_back(scene::highest_harmonic(scene, study));
+  model::ReducedScene reduced = model::reduced_scene(scene, folder.string(), by_signal(), frequencies);
+  tell_rough_reduction(scene);
   reduced.files.emplace_back("reduced.json", std::move(reduced.scene));
   const std::vector<std::string> sources = sources_of(scene, options.scene);
   ResultsFolder held(folder.string(), sources);

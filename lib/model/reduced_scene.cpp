@@ -3,6 +3,7 @@
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/model/model.hpp>
 #include <arcslip/model/placed_matrices.hpp>
+#include <arcslip/model/reduction_report.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/shape.hpp>
 
@@ -167,15 +168,30 @@ class ReducedFiles {
   std::vector<std::pair<std::string, std::string>> files_;
 };
 
+// 0 stands for the highest frequency.
+std::vector<scene::ErrorOfReduction> errors_of_reduction(const scene::Scene& scene,
+                                                         std::vector<double> frequencies,
+                                                         const control::Control& control) {
+  frequencies.push_back(0);
+  std::vector<scene::ErrorOfReduction> all;
+  for (const double frequency : frequencies)
+    all.push_back(*observables::error_of_reduction(scene, frequency, control));
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
+  const auto same = [](const auto& a, const auto& b) { return a.frequency == b.frequency; };
+  all.erase(std::unique(all.begin(), all.end(), same), all.end());
+  return all;
+}
+
 }  // namespace
 
 ReducedScene reduced_scene(const scene::Scene& scene, const std::string& folder,
-                           const control::Control& control) {
+                           const control::Control& control, std::vector<double> frequencies) {
   check_reduced(scene);
   scene::Scene undamped = scene;  // of the damping that the scene adds
   undamped.damping.clear();
   const Model model = build(undamped, control);
   scene::Scene copy = scene::from_folder(scene, folder);
+  copy.matrices->errors = errors_of_reduction(scene, std::move(frequencies), control);
   ReducedFiles files(model, scene);
   files.add_matrices(*scene.matrices, *copy.matrices);
   files.add_shapes(copy.excitation);

@@ -22,10 +22,12 @@ class NotReduced : public Error {
   using Error::Error;
 };
 
-/// folder: of the new scene and its files, to which the paths of other files become relative. Throws
-/// NotReduced where the matrices are not reduced or where the ground moves under all rows,
-/// structure::ReductionError and control::Interrupted.
+/// folder: of the new scene and its files, to which the paths of other files become relative. The new scene
+/// has the error of the reduction up to its highest frequency, and up to further ones below it, in the
+/// scene's unit. Throws NotReduced where the matrices are not reduced or where the ground moves under all
+/// rows, structure::ReductionError and control::Interrupted.
 ReducedScene reduced_scene(const scene::Scene& scene, const std::string& folder,
-                           const control::Control& control = {});
+                           const control::Control& control = {},
+                           std::vector<double> further_frequencies = {});
 
 }  // namespace arcslip::model

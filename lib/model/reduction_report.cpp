@@ -4,8 +4,11 @@
 #include <arcslip/results/text.hpp>
 #include <arcslip/structure/reduction.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 namespace arcslip::observables {
 namespace {
@@ -14,6 +17,29 @@ double to_two_digits(double value) {
   char digits[32];
   std::snprintf(digits, sizeof digits, "%.1e", value);
   return std::strtod(digits, nullptr);
+}
+
+// Of the matrices as they are given: up to the first frequency that is not below.
+std::optional<scene::ErrorOfReduction> given_error(const scene::Matrices& of, double frequency) {
+  if (of.errors.empty()) return {};
+  const auto first = std::find_if(of.errors.begin(), of.errors.end(), [&](const auto& each) {
+    return frequency > 0 && each.frequency >= frequency;
+  });
+  return first == of.errors.end() ? of.errors.back() : *first;
+}
+
+// With as many modes as up to the highest frequency of the scene. Nothing where rounding leaves none.
+std::optional<double> error_of_modes(const scene::Scene& scene, double frequency,
+                                     const control::Control& control) {
+  scene::Scene lower = scene;
+  scene::Reduction& how = lower.matrices->reduction;
+  if (how.cutoff == 0) how.cutoff = scene::cutoff_of_highest * scene.matrices->highest_frequency;
+  lower.matrices->highest_frequency = frequency;
+  try {
+    return reduction(lower, control)->error;
+  } catch (const scene::SceneError&) {
+    return {};
+  }
 }
 
 const char* coordinates_of(scene::ReductionMethod method) {
@@ -43,6 +69,21 @@ std::optional<model::Reduction> reduction(const scene::Scene& scene, const contr
                                                                                                   : "rod"),
                                                        error.what()}});
   }
+}
+
+std::optional<scene::ErrorOfReduction> error_of_reduction(const scene::Scene& scene, double frequency,
+                                                          const control::Control& control) {
+  if (!scene.matrices) return {};
+  const auto given = given_error(*scene.matrices, frequency);
+  const auto whole = reduction(scene, control);
+  if (!whole) return given;
+  const double highest = scene.matrices->highest_frequency;
+  scene::ErrorOfReduction found{highest, whole->error};
+  const bool by_modes = scene.matrices->reduction.method != scene::ReductionMethod::krylov;
+  if (by_modes && frequency > 0 && frequency < highest)
+    if (const auto error = error_of_modes(scene, frequency, control)) found = {frequency, *error};
+  if (given) found = {std::min(found.frequency, given->frequency), found.error + given->error};
+  return found;
 }
 
 std::string prepare(const scene::Scene& scene, const control::Control& control) {

@@ -60,6 +60,12 @@ struct FacePair {
   friend bool operator==(const FacePair&, const FacePair&) = default;
 };
 
+/// Of a reduction: the error of its dynamic stiffness up to a frequency, in the scene's unit.
+struct ErrorOfReduction {
+  double frequency, error;
+  friend bool operator==(const ErrorOfReduction&, const ErrorOfReduction&) = default;
+};
+
 struct Matrices {
   MatrixFile mass{}, stiffness{}, damping{};  // kg, N/m, N s/m; damping without a path: none
   MatrixFile stiffness_speed_squared{};       // N/m s^2/rad^2: K2 of K + speed^2 K2; without a path: none
@@ -73,7 +79,8 @@ struct Matrices {
   std::vector<double> stiffness_factors{};  // of the stiffness matrix in each copy; empty: 1
   double highest_frequency = 0;  // of a harmonic, in the scene's unit: they are reduced; 0: they are not
   Reduction reduction{};
-  std::optional<Bar> bar{};      // of which they are, in place of files
+  std::vector<ErrorOfReduction> errors{};  // of matrices that a reduction made, up to rising frequencies
+  std::optional<Bar> bar{};                // of which they are, in place of files
   std::shared_ptr<Derived> derived = Derived::none();
 
   /// Rows of one copy.

@@ -23,8 +23,7 @@ bool operator==(const Matrices& a, const Matrices& b) {
          a.unsymmetric_damping == b.unsymmetric_damping && a.names == b.names && a.rows == b.rows &&
          a.faces_file == b.faces_file && a.faces == b.faces && a.copies == b.copies &&
          a.stiffness_factors == b.stiffness_factors && a.highest_frequency == b.highest_frequency &&
-         a.reduction == b.reduction &&
-         a.bar == b.bar;
+         a.reduction == b.reduction && a.errors == b.errors && a.bar == b.bar;
 }
 
 std::vector<NamedFile*> files(Scene& scene) {

@@ -11,13 +11,13 @@ enum class ReductionMethod { krylov, craig_bampton, rubin };
 
 struct Reduction {
   ReductionMethod method = ReductionMethod::krylov;
-  double accuracy = 1e-11;  // of the dynamic stiffness, by Krylov spaces
-  int modes = -1;           // of the other methods; -1: those up to the cutoff
-  double cutoff = 0;        // in the scene's unit; 0: cutoff_of_highest times the highest frequency
+  double accuracy = 1e-8;  // of the dynamic stiffness, by Krylov spaces
+  int modes = -1;          // of the other methods; -1: those up to the cutoff
+  double cutoff = 0;       // in the scene's unit; 0: cutoff_of_highest times the highest frequency
   friend bool operator==(const Reduction&, const Reduction&) = default;
 };
 
-inline constexpr double cutoff_of_highest = 2;
+inline constexpr double cutoff_of_highest = 4;
 
 /// As in a scene file.
 std::string_view name(ReductionMethod method);

@@ -5,12 +5,14 @@
 #include <arcslip/scene/study_type.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace arcslip::scene {
 namespace {
 
 // Of its keys; a window is a list.
 double highest_frequency(const Scene& scene, const Study& study) {
+  if (study.type == nullptr) return 0;
   file::Node::Object written;
   study.type->settings().write(study.settings, scene, written);
   double highest = 0;
@@ -27,14 +29,27 @@ double highest_frequency(const Scene& scene, const Study& study) {
   return highest;
 }
 
+// Of the matrices as they are given, or as they are reduced.
+double limit_of_reduction(const Scene& scene) {
+  double limit = HUGE_VAL;
+  if (!scene.matrices) return limit;
+  if (scene.matrices->highest_frequency > 0) limit = scene.matrices->highest_frequency;
+  if (!scene.matrices->errors.empty()) limit = std::min(limit, scene.matrices->errors.back().frequency);
+  return limit;
+}
+
 }  // namespace
 
+double highest_harmonic(const Scene& scene, const Study& study) {
+  if (scene.harmonics.accuracy != 0) return 0;
+  return static_cast<double>(scene.harmonics.order) / scene.harmonics.period *
+         highest_frequency(scene, study);
+}
+
 std::string beyond_reduction(const Scene& scene, const Study& study) {
-  const bool known = scene.harmonics.accuracy == 0;
-  if (!known || !scene.matrices || scene.matrices->highest_frequency == 0) return {};
-  const double order = static_cast<double>(scene.harmonics.order) / scene.harmonics.period,
-               frequency = highest_frequency(scene, study), limit = scene.matrices->highest_frequency;
-  if (!(order * frequency > limit)) return {};
+  const double limit = limit_of_reduction(scene), frequency = highest_frequency(scene, study),
+               order = static_cast<double>(scene.harmonics.order) / scene.harmonics.period;
+  if (!(highest_harmonic(scene, study) > limit)) return {};
   const auto reported = [&](double value) {
     return results::quantity(value, unit_name(scene.frequency_unit));
   };

@@ -56,9 +56,11 @@ TEST_CASE("reduce refuses names that a table of names cannot hold before it writ
   }
 }
 
-TEST_CASE("a reduction by so few modes that it may be wrong is a doubt of the results") {
-  // A chain of 60 masses of 1 kg between springs of 1 N/m, fixed at one end.
-  const Workplace place;
+namespace {
+
+// A chain of 60 masses of 1 kg between springs of 1 N/m, fixed at one end, with natural frequencies from
+// 0.026 rad/s on; observed up to 0.04 rad/s.
+void write_chain(const Workplace& place, const std::string& reduction) {
   std::string mass = "%%MatrixMarket matrix coordinate real symmetric\n60 60 60\n",
               stiffness = "%%MatrixMarket matrix coordinate real symmetric\n60 60 119\n";
   for (int i = 1; i <= 60; ++i) {
@@ -70,24 +72,72 @@ TEST_CASE("a reduction by so few modes that it may be wrong is a doubt of the re
   place.write("M.mtx", mass);
   place.write("K.mtx", stiffness);
   place.write("names.csv", "name,row\ntip,60\n");
-  const auto response = [&](int modes) {
-    place.write("chain.json", R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
-      "matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "highest_frequency": 1.5,
-                   "reduction": {"method": "craig_bampton", "modes": )" +
-                                  std::to_string(modes) + R"(}},
+  place.write("chain.json", R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
+      "matrices": {"mass": "M.mtx", "stiffness": "K.mtx", "highest_frequency": 1.5, "reduction": )" +
+                                reduction + R"(},
       "names": "names.csv", "damping": [{"name": "d", "type": "rayleigh", "alpha": 0.001, "beta": 0}]},
       "excitation": [{"name": "f", "at": "tip", "cosine": 1}], "response": {"at": "tip"},
       "harmonics": {"order": 1}, "studies": [{"kind": "frf", "from": 0.02, "to": 0.04}]})");
-    const Ended ended = run(place, {"frf", "chain.json", "--json", "-"});
-    CAPTURE(ended.err);
-    REQUIRE(ended.exit_code == 0);
-    return Json::parse(ended.out);
-  };
-  const Json few = response(2), all = response(59);
-  CHECK(few["reduction"]["method"] == "craig_bampton");
-  const std::string doubt = few["branches"][0].value("doubt", "");
-  CAPTURE(doubt);
-  CHECK(doubt.find("the reduction of the structure may have an error of ") != std::string::npos);
-  CHECK(doubt.find(" up to its highest_frequency: keep more modes") != std::string::npos);
-  CHECK_FALSE(all["branches"][0].contains("doubt"));
+}
+
+std::string modes(int count) {
+  return R"({"method": "craig_bampton", "modes": )" + std::to_string(count) + "}";
+}
+
+Json responses_of(const Workplace& place, const std::string& scene) {
+  const Ended ended = run(place, {"frf", scene, "--json", "-"});
+  CAPTURE(ended.err);
+  REQUIRE(ended.exit_code == 0);
+  return Json::parse(ended.out);
+}
+
+std::string doubt_of(const Workplace& place, const std::string& scene) {
+  return responses_of(place, scene)["branches"][0].value("doubt", "");
+}
+
+bool is_rough(const std::string& text, const std::string& up_to) {
+  CAPTURE(text);
+  return text.find("the reduction of the structure may have an error of ") != std::string::npos &&
+         text.find(" up to " + up_to + " rad/s: keep more modes") != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a reduction by so few modes that it may be wrong is a doubt of the results") {
+  const Workplace place;
+  write_chain(place, modes(2));
+  CHECK(responses_of(place, "chain.json")["reduction"]["method"] == "craig_bampton");
+  CHECK(is_rough(doubt_of(place, "chain.json"), "0.04"));
+  // Far from enough for the highest frequency, below which there are some 32.
+  write_chain(place, modes(8));
+  CHECK(responses_of(place, "chain.json")["reduction"]["error"] > 0.1);
+  CHECK(doubt_of(place, "chain.json").empty());
+  write_chain(place, modes(59));
+  CHECK(doubt_of(place, "chain.json").empty());
+}
+
+TEST_CASE("the doubt about a reduction goes with the files that reduce writes") {
+  const Workplace place;
+  write_chain(place, modes(2));
+  CHECK(is_rough(run(place, {"reduce", "chain.json", "--out", "less"}).err, "0.04"));
+  CHECK(is_rough(doubt_of(place, "less/reduced.json"), "0.04"));
+  write_chain(place, modes(8));
+  const Ended better = run(place, {"reduce", "chain.json", "--out", "less"});
+  CHECK(better.err.find("keep more modes") == std::string::npos);
+  CHECK(doubt_of(place, "less/reduced.json").empty());
+  // A study that goes farther than that of the scene.
+  Json scene = Json::parse(place.read("less/reduced.json"));
+  scene["studies"][0]["to"] = 0.05;
+  place.write("less/reduced.json", scene.dump());
+  CHECK(is_rough(doubt_of(place, "less/reduced.json"), "1.5"));
+  // Beyond what the structure was reduced for.
+  write_chain(place, "{}");
+  CHECK(run(place, {"reduce", "chain.json", "--out", "less"}).exit_code == 0);
+  CHECK(doubt_of(place, "less/reduced.json").empty());
+  scene = Json::parse(place.read("less/reduced.json"));
+  scene["studies"][0]["from"] = 1.6;
+  scene["studies"][0]["to"] = 1.7;
+  place.write("less/reduced.json", scene.dump());
+  CHECK(doubt_of(place, "less/reduced.json").find("harmonics beyond highest_frequency of the reduction") !=
+        std::string::npos);
 }

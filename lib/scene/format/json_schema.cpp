@@ -446,6 +446,7 @@ Node matrices_of_structure() {
                        {"unsymmetric", unsymmetric()},
                        {"highest_frequency", number_or_text()},
                        {"reduction", reduction()},
+                       {"errors", list_of(list_of(of_type("number"), 2), 1)},
                        {"faces", of_type("string")},
                        {"copies", copies()},
                        {"stiffness_factors", list_of(above_zero())}},

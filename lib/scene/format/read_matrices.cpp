@@ -7,6 +7,7 @@
 #include <arcslip/scene/keys/study_keys.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace arcslip::scene::file {
 namespace {
@@ -14,6 +15,8 @@ namespace {
 constexpr double agreeing = 1e-9;  // a(i,j) - a(j,i), relative to sqrt(a(i,i) a(j,j)) or to both
 
 constexpr int largest_whole = 500;  // rows, of all copies
+constexpr Field at_least_0{
+    .name = "value", .unit = "-", .lower = 0, .upper = std::numeric_limits<double>::infinity()};
 
 enum class Form { symmetric, skew, general };
 
@@ -59,7 +62,8 @@ class Files {
   Files(const Location& place, const Field& frequency, const FileSource& source, Faults& faults)
       : keys_(place,
               {"mass", "stiffness", "damping", "stiffness_speed_squared", "gyroscopic", "circulatory",
-               "unsymmetric", "highest_frequency", "reduction", "faces", "copies", "stiffness_factors"},
+               "unsymmetric", "highest_frequency", "reduction", "errors", "faces", "copies",
+               "stiffness_factors"},
               faults),
         reading_{keys_, frequency, no_parameters(), no_dofs_, faults, source},
         faults_(faults) {}
@@ -80,6 +84,7 @@ class Files {
     if (const Location highest = keys_.find("highest_frequency"); highest.node != nullptr)
       matrices.highest_frequency = read_number(highest, reading_.frequency, faults_).value_or(0);
     read_reduction(matrices);
+    read_errors(matrices);
     if (!matrices.stiffness.matrix || !matrices.mass.matrix) return {};
     check_size("mass", matrices.mass, matrices.size());
     check_size("damping", matrices.damping, matrices.size());
@@ -145,6 +150,26 @@ class Files {
       faults_.add(place.pointer,
                   "found it without \"highest_frequency\", must be next to it: the highest frequency of a "
                   "harmonic to which the structure is reduced");
+  }
+
+  void read_errors(Matrices& matrices) {
+    const Location place = keys_.find("errors");
+    if (place.node == nullptr) return;
+    const Node::List* list = read_list(place, "a list of frequencies and the errors up to them", faults_);
+    for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
+      const std::string pointer = child(place.pointer, i);
+      const auto pair =
+          read_factors({&(*list)[i], pointer}, 2, at_least_0, "a frequency and the error up to it", faults_);
+      if (!pair) continue;
+      const ErrorOfReduction error{pair->front(), pair->back()};
+      if (error.frequency <= (matrices.errors.empty() ? 0 : matrices.errors.back().frequency))
+        faults_.add(child(pointer, 0),
+                    "found " + number_text(error.frequency) + ", must be above " +
+                        number_text(matrices.errors.empty() ? 0 : matrices.errors.back().frequency) +
+                        ", the frequency before it");
+      else
+        matrices.errors.push_back(error);
+    }
   }
 
   void read_faces(Matrices& matrices) {

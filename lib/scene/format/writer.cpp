@@ -159,6 +159,12 @@ void add_matrices(const Matrices& matrices, Node::Object& structure) {
     reduction_keys().write(Settings::of(matrices.reduction), {}, reduction);
     files.push_back({"reduction", {std::move(reduction)}});
   }
+  if (!matrices.errors.empty()) {
+    Node::List errors;
+    for (const auto& [frequency, error] : matrices.errors)
+      errors.push_back(node(std::vector{frequency, error}));
+    files.push_back({"errors", {std::move(errors)}});
+  }
   if (matrices.faces_file.text) files.push_back({"faces", node(matrices.faces_file.path)});
   if (matrices.copies > 1) files.push_back({"copies", node(matrices.copies)});
   if (!matrices.stiffness_factors.empty())

@@ -21,7 +21,7 @@ constexpr Field dynamic_accuracy{
 
 file::KeyGroup<Reduction> cutoff_key() {
   return {{{"cutoff", KeyType::frequency, "frequency", "above 0", "", false,
-            "the modes up to this frequency, by default up to twice the `highest_frequency`"}},
+            "the modes up to this frequency, by default up to four times the `highest_frequency`"}},
           [](const file::Reading& reading, Reduction& of) {
             of.cutoff =
                 file::read_number(reading.keys.find("cutoff"), reading.frequency, reading.faults).value_or(0);

@@ -38,7 +38,8 @@ void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown,
                const std::vector<std::string>& doubts = {"truncation_flagged"});
 
 /// Why results with a structure that is reduced by modes may be wrong; empty: no reason.
-std::string doubt_of_reduction(const scene::Scene& scene);
+std::string doubt_of_reduction(const scene::Scene& scene, const scene::Study& study,
+                               const control::Control& control = {});
 
 /// Reduces the matrices of the scene, if they are to be: observables::reduction().
 results::Header header(const scene::Scene& scene);

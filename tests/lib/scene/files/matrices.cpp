@@ -272,6 +272,50 @@ TEST_CASE("how matrices are reduced is written, read, hashed and in the schema")
   CHECK(contains(scene::json_schema(test_catalogue::whole()), "\"craig_bampton\""));
 }
 
+TEST_CASE("the errors of a reduction that made the matrices are written, read, hashed and doubted") {
+  const Folder folder = chain_files();
+  const auto with = [&](const std::string& errors) {
+    std::string text = files;
+    text.insert(text.find("\"damping\": \"C"), "\"errors\": " + errors + ", ");
+    return text;
+  };
+  const scene::Scene s = scenes::parse(scene_of(with("[[20, 1e-5], [200, 0.03]]")), folder.path());
+  CHECK(s.matrices->errors == std::vector<scene::ErrorOfReduction>{{20, 1e-5}, {200, 0.03}});
+  CHECK(scenes::parse(scene::write(s), folder.path()) == s);
+  CHECK(scene::hash(s) != scene::hash(scenes::parse(scene_of(files), folder.path())));
+  CHECK(contains(scene::json_schema(test_catalogue::whole()), "\"errors\""));
+  CHECK(observables::error_of_reduction(s, 20)->error == 1e-5);
+  CHECK(observables::error_of_reduction(s, 21)->error == 0.03);
+  CHECK(observables::error_of_reduction(s, 0)->error == 0.03);
+  CHECK(!observables::error_of_reduction(scenes::parse(scene_of(files), folder.path()), 20));
+  const auto fault = [&](const std::string& errors) { return fault_in_folder(with(errors), folder); };
+  CHECK(contains(fault("3"), "/structure/matrices/errors: found "));
+  CHECK(contains(fault("[[20]]"),
+                 "/structure/matrices/errors/0: found a list of 1, must be a list of 2 numbers, a "
+                 "frequency and the error up to it"));
+  CHECK(contains(fault("[[20, -1]]"), "/structure/matrices/errors/0/1: found -1"));
+  CHECK(contains(fault("[[20, 1], [20, 2]]"),
+                 "/structure/matrices/errors/1/0: found 20, must be above 20, the frequency before it"));
+}
+
+TEST_CASE(
+    "the error of modes up to a lower frequency is that of a reduction up to there with the same modes") {
+  const Folder folder = chain_files();
+  const auto reduced = [&](const std::string& highest, const std::string& reduction) {
+    return scenes::parse(scene_of(files_reduced(reduction, highest)), folder.path());
+  };
+  const scene::Scene s = reduced("40", R"({"method": "craig_bampton", "cutoff": 25})");
+  const auto all = observables::error_of_reduction(s, 0), low = observables::error_of_reduction(s, 5),
+             beyond = observables::error_of_reduction(s, 50);
+  const auto of_low = observables::reduction(reduced("5", R"({"method": "craig_bampton", "cutoff": 25})"));
+  CHECK(all->frequency == 40);
+  CHECK(beyond->frequency == 40);
+  CHECK(beyond->error == all->error);
+  CHECK(low->frequency == 5);
+  CHECK(low->error == of_low->error);
+  CHECK(low->error < 0.01 * all->error);
+}
+
 TEST_CASE("faults of how matrices are reduced name the key") {
   const Folder folder = chain_files();
   const auto fault = [&](const std::string& reduction, const std::string& highest = "200") {
