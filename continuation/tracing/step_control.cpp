@@ -12,6 +12,7 @@ constexpr double growth = 2.0, shrinkage = 0.3;  // of the step, limits
 constexpr double largest_extrapolation = 2.5;    // in last steps, for the cubic predictor
 constexpr double unresolved_rejection = 0.5;     // of the step if the slopes do not determine a quantity
 constexpr double curve_safety = 0.9;             // of the step allowed by the curve's error
+constexpr double order_across_kinks = 1.5;       // of the curve's error
 constexpr double least_share = 1e-2;             // of a rejected step, where its curve has a large error
 
 // Factor of the step for a curve error of `error` times the tolerance: the error is of fourth order.
@@ -76,7 +77,8 @@ void StepControl::predict(Vector& v) const {
 double StepControl::error_growth(const TrialStep& trial) const {
   if (!(s_.curve_error > 0) || !trial.corners.empty()) return 1;
   const double length = (trial.end.arclength - s_.here.arclength) / s_.last_step;
-  return std::max(1.0, trial.curve_error / (s_.curve_error * std::pow(length, 4)));
+  const double order = trial.passes_kinks ? order_across_kinks : 4;
+  return std::max(1.0, trial.curve_error / (s_.curve_error * std::pow(length, order)));
 }
 
 double StepControl::after(const TrialStep& trial) const {
@@ -92,12 +94,14 @@ double StepControl::after(const TrialStep& trial) const {
 
 // A step over kinks has a cubic on each section. The next one reaches as far into that of the largest error
 // as this allows: a section that ends at a kink has the same error in all steps that reach the kink, and
-// beyond a kink the branch may bend like the power 3/2 of the distance, as where contact begins.
+// beyond a kink, as in a step that passes kinks, the branch may bend like the power 3/2 of the distance, as
+// where contact begins.
 double StepControl::share_after_unresolved(const TrialStep& trial) const {
   if (!(trial.curve_error > 1)) return unresolved_rejection;
   const double before = trial.worst_begin - s_.here.arclength, within = trial.worst_end - trial.worst_begin;
-  const double factor = before > 0 ? curve_safety / std::cbrt(trial.curve_error * trial.curve_error)
-                                   : curve_factor(trial.curve_error);
+  const double factor = before > 0 || trial.passes_kinks
+                            ? curve_safety / std::pow(trial.curve_error, 1 / order_across_kinks)
+                            : curve_factor(trial.curve_error);
   return std::clamp((before + factor * within) / trial.length, least_share, curve_safety);
 }
 

@@ -28,7 +28,7 @@ struct TrialStep {
   double curve_error = 0;                 // of the cubics along it, relative to the tolerance: the largest
   double worst_begin = 0, worst_end = 0;  // arclength of the ends of its section
   bool other_piece_between = false;       // unnoticed by its sections
-  bool passes_kinks = false;              // which are too weak to be looked for
+  bool passes_kinks = false;              // which are not looked for
   Vector basis;                           // TransverseSpace at its end, where the sign of the
   bool has_basis = false;                 // determinant is not known
   double chord_error = 0;                 // of the monitored quantities, relative to the tolerance

@@ -25,10 +25,12 @@ namespace {
 
 using continuation::Vector;
 
-constexpr double points_in_window = 150;           // at least, from end to end, of a curve
-constexpr double points_across_kinks = 60;         // the same, where kinks are passed
-constexpr double events_in_window = 20;            // the same, where only its events are asked for
-constexpr double step_between_events = 1.0 / 200;  // relative to the highest frequency
+constexpr double points_in_window = 150;    // at least, from end to end, of a curve
+constexpr double points_across_kinks = 60;  // the same, where kinks are passed
+constexpr double points_in_narrow_window =
+    20;  // the same, whatever its width, and where only events are asked for
+constexpr double step_in_narrow_window = 1e-4;  // relative to the highest frequency: longer ones are limited
+constexpr double step_between_events = 1.0 / 200;  // the same, where only events are asked for
 constexpr double largest_frequency_step = 0.05;  // of the frequency, so that wide windows keep their low end
 constexpr double rejected_in_rounding = 0.5;     // steps, over points: where the branch lies in its rounding
 constexpr double largest_near_first = 1e8;       // of the response without elements to the first one
@@ -216,11 +218,11 @@ continuation::Options frequency_options(const FrequencyWindow& window, Steps ste
   options.lower = window.lower;
   options.upper = window.upper;
   options.check_jacobian = false;
-  options.step.largest_parameter = width / points_in_window;
+  const double unlimited =
+      (steps == Steps::events ? step_between_events : step_in_narrow_window) * window.upper;
+  options.step.largest_parameter =
+      std::clamp(unlimited, width / points_in_window, width / points_in_narrow_window);
   if (steps != Steps::events) options.step.curve_tolerance = curve_tolerance;
-  if (steps == Steps::events)
-    options.step.largest_parameter = std::clamp(step_between_events * window.upper,
-                                                options.step.largest_parameter, width / events_in_window);
   options.step.relative_parameter = largest_frequency_step;
   options.step.smallest =
       std::max(std::min(options.step.smallest, smallest_step * largest_frequency_step * window.lower / width),

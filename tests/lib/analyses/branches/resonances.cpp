@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -230,4 +231,30 @@ TEST_CASE("mass and stiffness taken for each other are asked about") {
       "are mass and stiffness taken for each other? Then they would be 300 rad/s"));
   const auto low = observables::frequency_response(scene(180000, 2), {.from = 10, .to = 50});
   CHECK(low[0].no_peak.ends_with("natural frequencies: 0.0033333 rad/s below"));
+}
+
+TEST_CASE("a narrow window has as many points as its curve asks for, and a resonance in it is found") {
+  // m = k = 1: the peak is at sqrt(1 - 2 zeta^2) with the amplitude 1/(2 zeta sqrt(1 - zeta^2)).
+  const auto response = [](double zeta) {
+    std::ostringstream damping;
+    damping << 2 * zeta;
+    const auto scene =
+        scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {"dofs": ["a"],
+      "masses": [{"name": "m", "at": "a", "value": 1}], "springs": [{"name": "k", "at": "a", "value": 1}],
+      "dampers": [{"name": "c", "at": "a", "value": )" +
+                      damping.str() + R"(}]},
+      "excitation": [{"name": "f", "at": "a", "cosine": 1}], "response": {"at": "a"}, "harmonics": {"order": 1}})");
+    const auto branches = observables::frequency_response(scene, {.from = 0.9999, .to = 1.0001});
+    REQUIRE(branches.size() == 1);
+    REQUIRE(branches[0].status == observables::Status::complete);
+    return branches[0];
+  };
+  CHECK(response(0.2).points.size() < 30);
+  for (const double zeta : {1e-4, 1e-5, 2e-6}) {
+    const auto branch = response(zeta);
+    CAPTURE(zeta, branch.points.size());
+    REQUIRE(branch.events.size() == 1);
+    CHECK(std::abs(branch.events[0].point.omega - std::sqrt(1 - 2 * zeta * zeta)) < 1e-14);
+    CHECK(std::abs(branch.events[0].point.amplitude * 2 * zeta * std::sqrt(1 - zeta * zeta) - 1) < 1e-9);
+  }
 }
