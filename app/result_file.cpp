@@ -2,7 +2,6 @@
 
 #include "interrupt.hpp"
 #include "output/message.hpp"
-#include "output/selection.hpp"
 #include "output/standard_output.hpp"
 
 #include <arcslip/results/table_writer.hpp>
@@ -10,6 +9,7 @@
 #include <arcslip/scene/keys/json_tree.hpp>
 #include <arcslip/scene/keys/read_text.hpp>
 #include <arcslip/scene/scene.hpp>
+#include <arcslip/studies/presentation/selection.hpp>
 
 #include <algorithm>
 #include <array>
@@ -250,7 +250,7 @@ std::vector<results::Shown> shown_in(const results::Schema& schema) {
       const bool is_usual = name == over || name == "kind" || name == "frequency" || name == "amplitude" ||
                             name == "stable" || name == "damping_ratio" || name.ends_with(".stick_percent");
       if (table.key == schema.shown_table && is_usual)
-        shown.push_back({.title = name_in_tables(column), .path = column.path, .unit = column.unit});
+        shown.push_back({.title = studies::name_in_tables(column), .path = column.path, .unit = column.unit});
     }
   return shown;
 }
@@ -336,12 +336,12 @@ results::Results read_results(const std::string& path) {
 
 ExitCode show_results(const CommandOptions& options) {
   const results::Results all = read_results(options.files[0]);
-  const Selection selection{options.columns, options.events};
-  check_selection(selection, all.schemas);
+  const studies::Selection selection{options.columns, options.events};
+  studies::check_selection(selection, all.schemas, "--");
   std::ostringstream tables;
   if (!all.header.title.empty()) tables << all.header.title << '\n';
   tables << all.header.program << ", scene " << all.header.scene_hash << "\n\n";
-  Selected table(std::make_unique<results::TableWriter>(tables), selection, false);
+  studies::Selected table(std::make_unique<results::TableWriter>(tables), selection, false);
   results::replay(all, table);
   results::Remarks remarks;
   results::replay(all, remarks);

@@ -5,7 +5,6 @@
 #include "output/progress.hpp"
 #include "output/results.hpp"
 #include "output/results_folder.hpp"
-#include "output/selection.hpp"
 #include "output/sinks.hpp"
 #include "output/standard_output.hpp"
 
@@ -16,6 +15,7 @@
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/combinations.hpp>
 #include <arcslip/studies/presentation/columns.hpp>
+#include <arcslip/studies/presentation/selection.hpp>
 #include <arcslip/studies/presentation/units.hpp>
 #include <arcslip/studies/study_kind.hpp>
 
@@ -144,10 +144,10 @@ std::vector<results::FigureData> compute_visibly(const scene::Scene& scene, cons
 }
 
 /// Makes a sink for the columns and events that the user asks for.
-decltype(File::sink) selected(decltype(File::sink) whole, const Selection& selection) {
+decltype(File::sink) selected(decltype(File::sink) whole, const studies::Selection& selection) {
   if (selection.empty()) return whole;
   return [whole = std::move(whole), selection](std::ostream& out) {
-    return std::make_unique<Selected>(whole(out), selection, true);
+    return std::make_unique<studies::Selected>(whole(out), selection, true);
   };
 }
 
@@ -327,7 +327,7 @@ class StudiesRun {
 
   static const CommandOptions& checked(const CommandOptions& options,
                                        const std::vector<results::Schema>& schemas) {
-    check_selection({options.columns, options.events}, schemas);
+    studies::check_selection({options.columns, options.events}, schemas, "--");
     return options;
   }
 
@@ -349,8 +349,8 @@ class StudiesRun {
   void run_study(std::size_t i) {
     any_begun_ = true;
     if (studies_.size() > 1) tables_ << (i > 0 ? "\n" : "") << studies_[i].name << '\n';
-    Selected table(std::make_unique<results::TableWriter>(tables_), {options_.columns, options_.events},
-                   false);
+    studies::Selected table(std::make_unique<results::TableWriter>(tables_),
+                            {options_.columns, options_.events}, false);
     results::Remarks remarks;
     OpenFiles own(options_.out.empty() ? std::vector<File>() : own_files(files_[i], schemas_[i]));
     OneOfSeveral among(common_.sink(), i);

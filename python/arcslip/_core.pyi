@@ -11,6 +11,7 @@ def run(
     scene: Scene,
     which: Sequence[int],
     coefficients: bool,
+    columns: list[str] | None,
     threads: int,
     report: Callable[[dict[str, Any]], object] | None,
 ) -> tuple[Results, int, BaseException | None]: ...

@@ -26,6 +26,7 @@ class StudyMethods:
         threads: int | None = None,
         progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
+        columns: Sequence[str] | None = None,
     ) -> Results: ...
     def trace(
         self,
@@ -43,6 +44,7 @@ class StudyMethods:
         threads: int | None = None,
         progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
+        columns: Sequence[str] | None = None,
     ) -> Results: ...
     def peaks(
         self,
@@ -60,6 +62,7 @@ class StudyMethods:
         threads: int | None = None,
         progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
+        columns: Sequence[str] | None = None,
     ) -> Results: ...
     def folds(
         self,
@@ -76,6 +79,7 @@ class StudyMethods:
         threads: int | None = None,
         progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
+        columns: Sequence[str] | None = None,
     ) -> Results: ...
     def bifurcations(
         self,
@@ -95,6 +99,7 @@ class StudyMethods:
         threads: int | None = None,
         progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
+        columns: Sequence[str] | None = None,
     ) -> Results: ...
     def time(
         self,
@@ -139,6 +144,7 @@ class StudyMethods:
         threads: int | None = None,
         progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
+        columns: Sequence[str] | None = None,
     ) -> Results: ...
     def sweep(
         self,

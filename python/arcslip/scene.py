@@ -177,7 +177,7 @@ class Scene(StudyMethods):
             if name not in own:
                 raise ValueError(f"found the study {name!r}, must be one of {own}")
         which = [own.index(name) for name in names] if names else range(len(own))
-        return run(self._data, which, coefficients, threads, progress)
+        return run(self._data, which, coefficients, None, threads, progress)
 
     def ensemble(
         self,

@@ -46,17 +46,30 @@ COMMON = {
     "threads": ("int", "Threads to use; by default as many as there are processors."),
     "progress": ("bool | Callable[[dict[str, Any]], object]", PROGRESS),
 }
-COEFFICIENTS = ("bool", "Whether results have the Fourier coefficients of the response. Default: False.")
+#: Of studies of branches.
+OF_BRANCHES = {
+    "coefficients": ("bool", "Whether results have the Fourier coefficients of the response. Default: False."),
+    "columns": (
+        "Sequence[str]",
+        'The columns of points and events that are computed, with or without "elements": "amplitude", "damper.energy"; events'
+        " also have their `kind`. By default all.",
+    ),
+}
 
 
 def run(
-    core: _core.Scene, which: Sequence[int], coefficients: bool, threads: int | None, progress: Progress | None
+    core: _core.Scene,
+    which: Sequence[int],
+    coefficients: bool,
+    columns: Sequence[str] | None,
+    threads: int | None,
+    progress: Progress | None,
 ) -> Results:
     """Run studies of a scene. What ends them early is raised with the results so far as its attribute `results`."""
-    count = checked(threads)
+    count, names = checked(threads), None if columns is None else _names(columns)
     studies = core.studies()
     with reporting(progress, ", ".join(dict.fromkeys(studies[i][0] for i in which))) as report:
-        found, begun, error = _core.run(core, list(which), coefficients, count, report)
+        found, begun, error = _core.run(core, list(which), coefficients, names, count, report)
         results = from_core(found, core.labels)
         if error is not None:
             error.results = results  # type: ignore[attr-defined]
@@ -66,6 +79,12 @@ def run(
     if begun < len(which):
         warnings.warn(f"stopped: {len(which) - begun} of {len(which)} studies were not started", ArcslipWarning, 3)
     return results
+
+
+def _names(columns: Any) -> list[str]:
+    if isinstance(columns, str) or not all(isinstance(name, str) for name in columns):
+        raise TypeError(f"found {columns!r} for 'columns', must be a list of names")
+    return list(columns)
 
 
 def _combinations(for_each: Any) -> int:
@@ -122,7 +141,7 @@ def _docstring(kind: Mapping[str, Any]) -> str:
         if key["default"]:
             text += f" Default: {_default(key)!r}."
         entries.append(_described(name, TYPES.get(key["type"], "object"), text))
-    common = dict(COMMON, coefficients=COEFFICIENTS) if kind["takes_coefficients"] else COMMON
+    common = COMMON | (OF_BRANCHES if kind["takes_coefficients"] else {})
     entries += [_described(name, type_, text) for name, (type_, text) in common.items()]
     required = [argument(key["name"]) for key in kind["keys"] if key["required"]]
     needed = f" A scene without one needs {', '.join(required)}." if required else ""
@@ -144,7 +163,7 @@ def _signature(kind: Mapping[str, Any]) -> inspect.Signature:
     ]
     common = [only(name, None, f"{type_} | None") for name, (type_, _) in COMMON.items()]
     if kind["takes_coefficients"]:
-        common.append(only("coefficients", False, "bool"))
+        common += [only("coefficients", False, "bool"), only("columns", None, f"{OF_BRANCHES['columns'][0]} | None")]
     itself = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
     return inspect.Signature([itself, *own, *common], return_annotation="Results")
 
@@ -176,13 +195,15 @@ def method(kind: Mapping[str, Any]) -> Callable[..., Results]:
         threads: int | None = None,
         progress: Progress | None = None,
         coefficients: bool = False,
+        columns: Sequence[str] | None = None,
         **options: Any,
     ) -> Results:
         for name in options:
             if name not in arguments:
                 raise TypeError(f"{kind['verb']}() has no argument {name!r}{nearest(name, arguments)}")
-        if coefficients and not kind["takes_coefficients"]:
-            raise TypeError(f"{kind['verb']}() has no argument 'coefficients'")
+        for name, value in (("coefficients", coefficients or None), ("columns", columns)):
+            if value is not None and not kind["takes_coefficients"]:
+                raise TypeError(f"{kind['verb']}() has no argument {name!r}")
         keys = {arguments[name]["name"]: value for name, value in options.items()}
         if for_each is not None:
             keys["for_each"] = for_each
@@ -190,7 +211,7 @@ def method(kind: Mapping[str, Any]) -> Callable[..., Results]:
         index = _template(core, kind["name"], study, keys.get("over"))
         text, _ = as_json(keys)
         core, index = core.with_study(kind["name"], index, text)
-        return run(core, [index], coefficients, threads, progress)
+        return run(core, [index], coefficients, columns, threads, progress)
 
     study_of_kind.__name__ = kind["verb"]
     study_of_kind.__qualname__ = f"Scene.{kind['verb']}"

@@ -9,14 +9,17 @@
 #include <arcslip/results/table_writer.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/studies/presentation/columns.hpp>
+#include <arcslip/studies/presentation/selection.hpp>
 #include <arcslip/studies/study_kind.hpp>
 #include <arcslip/studies/windows.hpp>
 
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -137,8 +140,7 @@ std::pair<std::vector<std::string>, std::vector<std::string>> remarks(const Resu
 
 /// Returns how many of the studies were begun.
 std::size_t compute(scene::Scene scene, const std::vector<std::size_t>& which,
-                    const control::Control& control, studies::RunOptions options,
-                    results::Collector& collector) {
+                    const control::Control& control, studies::RunOptions options, results::Sink& sink) {
   options.control = control;
   observables::prepare(scene, control);
   std::vector<std::string> notes;
@@ -148,31 +150,41 @@ std::size_t compute(scene::Scene scene, const std::vector<std::size_t>& which,
   std::vector<results::Schema> schemas;
   for (const std::size_t i : which)
     schemas.push_back(studies::kind_of(*scene.studies[i].type).schema(scene, scene.studies[i], options));
+  studies::check_selection({options.point_columns, {}}, schemas);
   results::Header header = studies::header(scene);
   header.notes = std::move(notes);
-  collector.begin(header, schemas);
+  sink.begin(header, schemas);
   std::size_t begun = 0;
   for (; begun < which.size() && control.keep_going(); ++begun) {
     const scene::Study& study = scene.studies[which[begun]];
-    studies::kind_of(*study.type).run(scene, study, options, begun, collector);
+    studies::kind_of(*study.type).run(scene, study, options, begun, sink);
   }
-  collector.finish();
+  sink.finish();
   return begun;
 }
 
-/// The results of these studies of a scene, how many of them were begun, and the exception that ended them
-/// early, or None.
+/// The results of these studies of a scene, of branches with these columns, how many of them were begun, and
+/// the exception that ended them early, or None.
 nb::tuple run(const scene::Scene& scene, const std::vector<std::size_t>& which, bool coefficients,
-              int threads, const nb::object& report) {
+              std::optional<std::vector<std::string>> columns, int threads, const nb::object& report) {
   for (const std::size_t i : which) static_cast<void>(scene.studies.at(i));
-  results::Collector collector;
+  auto kept = std::make_unique<results::Collector>();
+  results::Collector& collector = *kept;
+  std::unique_ptr<results::Sink> sink = std::move(kept);
   studies::RunOptions options;
   options.coefficients = coefficients;
+  if (columns) {
+    columns->push_back("kind");  // by which events are found
+    if (coefficients) columns->push_back("coefficients");
+    options.point_columns = options.event_columns = *columns;
+    sink = std::make_unique<studies::Selected>(std::move(sink), studies::Selection{*std::move(columns), {}},
+                                               true);
+  }
   options.motions = true;
   options.threads = threads;
   std::size_t begun = 0;
   const auto ended_by = supervised(report, [&](const control::Control& control) {
-    begun = compute(scene, which, control, options, collector);
+    begun = compute(scene, which, control, options, *sink);
   });
   for (results::Result& result : collector.results.results)
     for (results::Rows& rows : result.tables) mark_missing(rows);
@@ -202,8 +214,8 @@ void bind_results(nb::module_& core) {
         const auto [early_ends, doubts] = remarks(results);
         return nb::make_tuple(nb::cast(early_ends), nb::cast(doubts));
       });
-  core.def("run", run, nb::arg("scene"), nb::arg("which"), nb::arg("coefficients"), nb::arg("threads"),
-           nb::arg("report").none());
+  core.def("run", run, nb::arg("scene"), nb::arg("which"), nb::arg("coefficients"), nb::arg("columns").none(),
+           nb::arg("threads"), nb::arg("report").none());
 }
 
 }  // namespace arcslip::python

@@ -155,3 +155,30 @@ def test_memory_is_flat_over_many_results(oscillator: dict[str, Any]) -> None:
     before = resident()
     cycles(10_000)
     assert resident() - before < 8e6
+
+
+def test_columns_that_are_asked_for_are_computed_alone_and_equal_to_those_among_all(scene: arcslip.Scene) -> None:
+    loads = {"damper.normal_load": [2.0, 4.0]}
+    all_of_them = scene.frf(for_each=loads, coefficients=True)
+    some = scene.frf(for_each=loads, columns=["damper.stick_percent", "elements.damper.energy", "frequency"])
+    assert len(some) == len(all_of_them) == 2
+    for branch, whole in zip(some, all_of_them, strict=True):
+        names = ("frequency", "elements.damper.stick_percent", "elements.damper.energy")
+        assert (branch.points.columns, branch.events.columns) == (names, ("kind", *names))
+        for name in names:
+            np.testing.assert_array_equal(branch[name], whole[name])
+            np.testing.assert_array_equal(branch.events["peak"][name], whole.events["peak"][name])
+        assert branch.units["elements.damper.energy"] == "J"
+        assert (branch.set, branch.status, branch.facts.keys()) == (whole.set, whole.status, whole.facts.keys() - {"harmonics"})
+        np.testing.assert_array_equal(branch.motion(3).displacement, whole.motion(3).displacement)
+    (curve,) = scene.trace(over="damper.normal_load", from_=2, to=4, frequency=15, columns=["damper.normal_load"], coefficients=True)
+    assert curve.points.columns == ("damper.normal_load", "coefficients")
+    assert curve.coefficients.shape == (len(curve), 8)
+
+
+def test_results_with_some_columns_are_saved_and_loaded(scene: arcslip.Scene, tmp_path: Path) -> None:
+    (branch,) = found = scene.frf(columns=["frequency", "amplitude"])
+    found.save(tmp_path / "some.json")
+    (loaded,) = arcslip.load(tmp_path / "some.json")
+    np.testing.assert_array_equal(loaded.amplitude, branch.amplitude)
+    assert loaded.events.kind.tolist() == branch.events.kind.tolist() != []

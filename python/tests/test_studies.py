@@ -19,7 +19,7 @@ import pytest
 import arcslip
 from arcslip import _core
 from arcslip.methods import StudyMethods
-from arcslip.studies import COMMON, argument, stubs
+from arcslip.studies import COMMON, OF_BRANCHES, argument, stubs
 
 
 def test_every_kind_of_study_is_a_method_with_its_keys() -> None:
@@ -32,7 +32,7 @@ def test_every_kind_of_study_is_a_method_with_its_keys() -> None:
         parameters = inspect.signature(method).parameters
         names = [argument(key["name"]) for key in kind["keys"]]
         assert list(parameters)[1 : 1 + len(names)] == names
-        assert not set(names) & {*COMMON, "coefficients"}
+        assert not set(names) & {*COMMON, *OF_BRANCHES}
         assert all(f"\n{name} : " in method.__doc__ and name.isidentifier() for name in names)
 
 
@@ -65,6 +65,20 @@ def test_unknown_argument_names_the_nearest(scene: arcslip.Scene) -> None:
         scene.frf(study="other")
     with pytest.raises(ValueError, match="response"):
         scene.run("other")
+
+
+def test_unknown_columns_are_refused(scene: arcslip.Scene) -> None:
+    with pytest.raises(ValueError, match=r"columns amplitud: must be of .*did you mean amplitude\?"):
+        scene.frf(columns=["frequency", "amplitud"])
+    with pytest.raises(ValueError, match="did you mean damper.stick_percent"):
+        scene.frf(columns=["damper.stick_percen"])
+    with pytest.raises(ValueError, match="columns coefficients"):
+        scene.frf(columns=["coefficients"])
+    for wrong in ["amplitude", [1], 3]:
+        with pytest.raises(TypeError):
+            scene.frf(columns=wrong)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="has no argument 'columns'"):
+        scene.time(columns=["time"])  # type: ignore[call-arg]
 
 
 @pytest.mark.parametrize("wrong", ["much", None, [10.0], np.nan, {"a": 1}, -1, "a\0b"])

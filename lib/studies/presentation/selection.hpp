@@ -1,5 +1,5 @@
 #pragma once
-// The columns and kinds of events that the user asks for.
+// The columns and kinds of events that a user asks for.
 
 #include <arcslip/results/result.hpp>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace arcslip::app {
+namespace arcslip::studies {
 
 /// Names of columns, "damper.stick_percent" or "frequency", and kinds of events; of each, none: all of them.
 struct Selection {
@@ -20,8 +20,10 @@ struct Selection {
 /// The name of a column as in CSV, without "elements".
 std::string name_in_tables(const results::Column& column);
 
-/// Throws UsageError for a column that no table of the studies has, and for an unknown kind of events.
-void check_selection(const Selection& selection, std::span<const results::Schema> schemas);
+/// Throws std::invalid_argument for a column that no table of the studies has, and for an unknown kind of
+/// events, with the nearest one. prefix: of the words "columns" and "events" in the message.
+void check_selection(const Selection& selection, std::span<const results::Schema> schemas,
+                     const std::string& prefix = {});
 
 /// Passes on to another sink what is selected: rows of events of these kinds, and of the columns those that
 /// are shown to people or, with of_tables, all that tables have.
@@ -43,4 +45,4 @@ class Selected : public results::Sink {
   std::size_t schema_ = 0;
 };
 
-}  // namespace arcslip::app
+}  // namespace arcslip::studies

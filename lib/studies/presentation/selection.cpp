@@ -1,15 +1,14 @@
-#include "selection.hpp"
-
-#include "../command_line/options.hpp"
+#include <arcslip/studies/presentation/selection.hpp>
 
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/scene/scene.hpp>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
-namespace arcslip::app {
+namespace arcslip::studies {
 namespace {
 
 namespace kinds = observables::event_kinds;
@@ -89,7 +88,8 @@ std::string name_in_tables(const results::Column& column) {
   return name.starts_with(elements) ? name.substr(elements.size()) : name;
 }
 
-void check_selection(const Selection& selection, std::span<const results::Schema> schemas) {
+void check_selection(const Selection& selection, std::span<const results::Schema> schemas,
+                     const std::string& prefix) {
   std::vector<std::string> known, names_too;  // also with "elements"
   for (const results::Schema& schema : schemas)
     for (const results::Table& table : schema.tables)
@@ -98,7 +98,7 @@ void check_selection(const Selection& selection, std::span<const results::Schema
           known.push_back(name);
           names_too.push_back(results::name(column));
         }
-  const auto check = [](const char* option, const std::string& word, const std::vector<std::string>& all) {
+  const auto check = [&](const char* of, const std::string& word, const std::vector<std::string>& all) {
     if (has(all, word)) return;
     std::string text;
     for (const std::string& name : all) text += (text.empty() ? "" : ", ") + results::visible(name);
@@ -106,14 +106,14 @@ void check_selection(const Selection& selection, std::span<const results::Schema
     const auto longer =
         std::find_if(all.begin(), all.end(), [&](const auto& name) { return name.starts_with(word); });
     if (near.empty() && longer != all.end() && !word.empty()) near = *longer;
-    throw UsageError(std::string(option) + " " + results::visible(word) + ": must be of " + text +
-                     (near.empty() ? "" : "; did you mean " + results::visible(near) + "?"));
+    throw std::invalid_argument(prefix + of + " " + results::visible(word) + ": must be of " + text +
+                                (near.empty() ? "" : "; did you mean " + results::visible(near) + "?"));
   };
   for (const std::string& column : selection.columns)
-    if (!has(names_too, column)) check("--columns", column, known);
+    if (!has(names_too, column)) check("columns", column, known);
   std::vector<std::string> names{no_events};
   for (const auto& kind : kinds::all) names.emplace_back(kind.name);
-  for (const std::string& event : selection.events) check("--events", event, names);
+  for (const std::string& event : selection.events) check("events", event, names);
 }
 
 Selected::Selected(std::unique_ptr<results::Sink> to, Selection selection, bool of_tables)
@@ -146,4 +146,4 @@ void Selected::rows(std::size_t table, const results::Rows& rows) {
   to_->rows(table, some);
 }
 
-}  // namespace arcslip::app
+}  // namespace arcslip::studies
