@@ -91,49 +91,24 @@ Truncation::Truncation(const hbm::HbmProblem& problem, int free, const Vector& p
 
 TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const Extreme& extreme,
                                         PointCondition held) {
-  const Eigen::Index n = problem_.size();
   exact_ = false;
   change_.u.resize(0);
   if (!wide_.move_to(now.u, now.p)) return {.flagged = true};
   residual_ = wide_.at().residual();
-  double force = 0;
-  for (std::size_t e = 0; e < wide_.at().element_count(); ++e)
-    force = std::max(force, wide_.at().element(e).force().cwiseAbs().maxCoeff());
-  exact_ = residual_.cwiseAbs().maxCoeff() <= linear_motion * force;
+  exact_ = neglects_nothing();
   if (exact_ && held == PointCondition::parameter) return {};
   if (exact_) return {.location = 0, .location_change = 0};
   if (held == PointCondition::branch_point) return {.amplitude = no_value, .change = no_value};
 
-  bool flagged = samples_too_few();
-  Shift location;
-  wide_.factorize(free_);
-  const bool is_at_corner = held == PointCondition::corner && to_corner(now);
-  if (!is_at_corner) {
-    const double enough = tolerance * now.u.norm();
-    const bool converges = wide_.solve(now.bordered, residual_, {}, change_, enough) <= converging;
-    wide_.embed(now.tangent.head(n), tangent_.u);
-    tangent_.parameter = now.tangent[n];
-    const Step step = step_along(now, held);
-    if (held == PointCondition::extremum) location = shift_of_extremum(now, extreme);
-    change_.u += step.length * tangent_.u;
-    change_.parameter += step.length * tangent_.parameter;
-    flagged = flagged || !converges || !step.known;
-    if (held == PointCondition::fold && step.known) location.change = change_.parameter;
-  } else {
-    location.change = change_.parameter;
-  }
+  const auto [location, is_at_corner, is_known] = correct(now, extreme, held);
   const double change = change_of_amplitude(change_, now, extreme, held);
   const double size = response_.norm();
   if (!std::isfinite(change)) return {.flagged = true};
-  const bool cancels = std::abs(change) < cancelled * size && size > tolerance * extreme.amplitude;
-  double estimate = cancels ? uncancelled * size : std::abs(change);
-  const bool has_internal = problem_.blocks() > problem_.coordinates().unknowns;
-  if (has_internal && size > tolerance * extreme.amplitude)
-    estimate = std::max(estimate, uncancelled_of_internal * size);
+  double estimate = not_cancelled(change, size, extreme.amplitude);
   const elements::Harmonics& all = wide_.problem().harmonics();
   const double base = all.base_frequency(now.p[model::frequency]);
   const double highest = highest_natural_frequency_above(all.order * base, now);
-  if (has_internal || problem_.harmonics().order * base < highest)
+  if (has_internal() || problem_.harmonics().order * base < highest)
     estimate += further_change(now, extreme, held, is_at_corner);
   const double beyond = all.order * base < highest ? response_beyond(now) : 0;
   const double most = small_change * extreme.amplitude;  // also of the second correction
@@ -141,9 +116,47 @@ TruncationEstimate Truncation::estimate(const continuation::Accepted& now, const
   if (small) estimate = std::max(estimate, beyond);
   return {.amplitude = std::isfinite(estimate) ? estimate : std::abs(change),
           .change = change,
-          .flagged = flagged || !small,
+          .flagged = samples_too_few() || !is_known || !small,
           .location = std::max(std::abs(location.change), uncancelled * location.parts),
           .location_change = location.change};
+}
+
+// Whether the motion has no forces beyond the harmonics kept.
+bool Truncation::neglects_nothing() const {
+  double force = 0;
+  for (std::size_t e = 0; e < wide_.at().element_count(); ++e)
+    force = std::max(force, wide_.at().element(e).force().cwiseAbs().maxCoeff());
+  return residual_.cwiseAbs().maxCoeff() <= linear_motion * force;
+}
+
+// Makes change_ that to the point of more harmonics which satisfies the same condition.
+Truncation::Correction Truncation::correct(const continuation::Accepted& now, const Extreme& extreme,
+                                           PointCondition held) {
+  const Eigen::Index n = problem_.size();
+  wide_.factorize(free_);
+  if (held == PointCondition::corner && to_corner(now)) return {{change_.parameter}, true, true};
+  const double enough = tolerance * now.u.norm();
+  const bool converges = wide_.solve(now.bordered, residual_, {}, change_, enough) <= converging;
+  wide_.embed(now.tangent.head(n), tangent_.u);
+  tangent_.parameter = now.tangent[n];
+  const Step step = step_along(now, held);
+  Shift location;
+  if (held == PointCondition::extremum) location = shift_of_extremum(now, extreme);
+  change_.u += step.length * tangent_.u;
+  change_.parameter += step.length * tangent_.parameter;
+  if (held == PointCondition::fold && step.known) location.change = change_.parameter;
+  return {location, false, converges && step.known};
+}
+
+// The estimate for a change of the amplitude, and the size of that of the response.
+double Truncation::not_cancelled(double change, double size, double amplitude) const {
+  if (size <= tolerance * amplitude) return std::abs(change);
+  const double estimate = std::abs(change) < cancelled * size ? uncancelled * size : std::abs(change);
+  return has_internal() ? std::max(estimate, uncancelled_of_internal * size) : estimate;
+}
+
+bool Truncation::has_internal() const {
+  return problem_.blocks() > problem_.coordinates().unknowns;
 }
 
 // Of the solution's change x; response_: that of the response.

@@ -92,6 +92,12 @@ class Truncation {
     double change = no_value;
     double parts = 0;  // the sum of their sizes
   };
+  struct Correction {
+    Shift location;  // of an event
+    bool is_at_corner;
+    bool is_known;  // otherwise it may be far from the point
+  };
+  Correction correct(const continuation::Accepted& now, const Extreme& extreme, PointCondition held);
   Shift shift_of_extremum(const continuation::Accepted& now, const Extreme& extreme);
   elements::Values response_to(WideEquations& in, const Change& x, const continuation::Accepted& now,
                                const Extreme& extreme);
@@ -104,7 +110,10 @@ class Truncation {
   double highest_natural_frequency_above(double reach, const continuation::Accepted& now);
   double response_beyond(const continuation::Accepted& now) const;
   std::vector<double> largest_motions() const;
+  double not_cancelled(double change, double size, double amplitude) const;
+  bool neglects_nothing() const;
   bool samples_too_few() const;
+  bool has_internal() const;  // laws with unknowns of their own
 
   const hbm::HbmProblem& problem_;
   int free_;
