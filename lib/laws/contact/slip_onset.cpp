@@ -15,14 +15,15 @@ constexpr int onset_newton_steps = 40;
 
 // A lower bound of the first positive root of a polynomial that begins with positive coefficients: the root
 // of the one without the positive coefficients behind a negative one, which has one root. At most `most`.
-double first_root(const std::array<double, 7>& c, double most) {
+double first_root(std::array<double, 7> c, double most) {
   std::size_t changes = 0;
   while (changes < c.size() && c[changes] >= 0) ++changes;
+  for (std::size_t k = changes; k < c.size(); ++k) c[k] = std::min(c[k], 0.0);
   const auto at = [&](double s) {
     double value = 0, slope = 0;
     for (std::size_t k = c.size(); k-- > 0;) {
       slope = slope * s + value;
-      value = value * s + (k < changes ? c[k] : std::min(c[k], 0.0));
+      value = value * s + c[k];
     }
     return std::pair(value, slope);
   };
@@ -36,7 +37,10 @@ double first_root(const std::array<double, 7>& c, double most) {
       above = s;
     }
     const double newton = s - value / slope;
-    const double next = slope < 0 && newton > below && newton < above ? newton : 0.5 * (below + above);
+    // From far above it would go on in small steps, as the highest power does.
+    const bool far = below == 0 && newton > 0.7 * s && newton < 0.9 * s;
+    const bool good = slope < 0 && newton > below && newton < above && !far;
+    const double next = good ? newton : 0.5 * (below + above);
     if (std::abs(next - s) <= 1e-15 * s) break;
     s = next;
   }
