@@ -35,12 +35,11 @@ Eigen::Vector2d sampled_slider(const std::vector<DiscInstant>& instants, Eigen::
 
 }  // namespace
 
-DiscPhases::DiscPhases(const Harmonics& harmonics) : march_(harmonics), centre_(harmonics) {
-  const int count = static_cast<int>(pair_stride) * (4 * harmonics.order + 12);
-  for (int k = 0; k < count; ++k)
-    samples_.emplace_back(std::cos(whole_turn * k / count), std::sin(whole_turn * k / count));
-  instants_.resize(samples_.size());
-}
+DiscPhases::DiscPhases(const Harmonics& harmonics)
+    : march_(harmonics),
+      centre_(harmonics),
+      angles_(static_cast<int>(pair_stride) * (4 * harmonics.order + 12)),
+      instants_(angles_.theta.size()) {}
 
 // Newton's method for w after one period, from w. Returns what is left, as a change of w: next to full stick
 // the slider moves along one line only, so that this is by far larger than its change over the period. A step
@@ -76,14 +75,13 @@ double DiscPhases::iterate(const Disc& disc, double enough, Eigen::Vector2d& w) 
 
 // Whether a pair of instants excludes full stick by far, without the centre.
 bool DiscPhases::surely_slips(const Disc& disc) {
-  const auto look_at_each = [&](std::size_t stride) {
-    for (std::size_t k = 0; k < samples_.size(); k += stride) {
-      const DiscPoint at = disc.at(samples_[k].first, samples_[k].second);
-      instants_[k] = {0, at.x, at.h};
-    }
-  };
-  look_at_each(pair_stride);
+  disc.at(angles_, pair_stride, instants_);
   short_of_stick_ = 0;
+  const double clear = clear_slip * (disc.motion_bound(0) + disc.largest());
+  double most = 0;  // of the distance from the mean without the radius: twice of it bounds that of a pair
+  for (std::size_t i = 0; i < instants_.size(); i += pair_stride)
+    most = std::max(most, (instants_[i].x - disc.mean()).norm() - instants_[i].h);
+  if (!(most > clear)) return false;
   std::size_t first = 0, second = 0;
   for (std::size_t i = 0; i < instants_.size(); i += pair_stride)
     for (std::size_t j = 0; j < i; j += pair_stride) {
@@ -94,9 +92,9 @@ bool DiscPhases::surely_slips(const Disc& disc) {
       first = i;
       second = j;
     }
-  if (!(short_of_stick_ > clear_slip * (disc.motion_bound(0) + disc.largest()))) return false;
+  if (!(short_of_stick_ > clear)) return false;
   const Eigen::Vector2d w = stick_margin(instants_[first], instants_[second]).w;
-  look_at_each(1);
+  disc.at(angles_, 1, instants_);
   start_ = sampled_slider(instants_, w);
   return true;
 }

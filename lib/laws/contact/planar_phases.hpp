@@ -140,8 +140,8 @@ class DiscPhases {
   DiscMarch march_;
   StickCentre centre_;
   Eigen::Vector2d start_ = Eigen::Vector2d::Zero();  // of the search for a slider that slips
-  std::vector<std::pair<double, double>> samples_;   // cosine and sine of some angles
-  std::vector<DiscInstant> instants_;                // there
+  DiscAngles angles_;
+  std::vector<DiscInstant> instants_;  // there
   double short_of_stick_ = 0;
   bool full_stick_ = false, periodic_ = true;
 };

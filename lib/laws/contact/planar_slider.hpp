@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace arcslip::elements {
 
 /// n turned by a right angle, counterclockwise.
@@ -19,6 +21,27 @@ struct DiscPoint {
   double h, dh, ddh;        // h, h', h''
 };
 
+/// At one angle, rad.
+struct DiscInstant {
+  double theta;
+  Eigen::Vector2d x;
+  double h;
+};
+
+/// Angles at equal distances over a period.
+struct DiscAngles {
+  explicit DiscAngles(int count);
+  std::vector<double> theta, cosine, sine;
+};
+
+/// h and derivatives by the angle, of x = (x[0], x[1]) and h, at several angles.
+template <int count>
+struct DiscNodes {
+  using Nodes = Eigen::Matrix<double, count, 1>;
+  Nodes v[2], a[2];
+  Nodes h, dh, ddh;
+};
+
 class Disc {
  public:
   explicit Disc(const Harmonics& harmonics);
@@ -30,6 +53,11 @@ class Disc {
   auto coefficients(int i) const { return u_.col(i); }  // of x_1, x_2, h
   DiscPoint at(double theta) const;
   DiscPoint at(double cosine, double sine) const;  // of the angle
+  /// At the angles of the indices 0, stride, 2 stride ... of a list as long as theirs.
+  void at(const DiscAngles& angles, std::size_t stride, std::vector<DiscInstant>& instants) const;
+  template <int count>
+  void at(const Eigen::Matrix<double, count, 1>& cosines, const Eigen::Matrix<double, count, 1>& sines,
+          DiscNodes<count>& nodes) const;
   Eigen::Vector2d mean() const { return {u_(0, 0), u_(0, 1)}; }
   double largest() const { return largest_; }  // a bound of |h|
   /// A bound of the derivative of this order, 0 to 3: of |x| (without the mean), and of |h|.
@@ -41,5 +69,27 @@ class Disc {
   Eigen::Matrix<double, Eigen::Dynamic, 3> u_;
   double motion_[4] = {}, radius_[4] = {}, largest_ = 0;
 };
+
+template <int count>
+void Disc::at(const Eigen::Matrix<double, count, 1>& cosines, const Eigen::Matrix<double, count, 1>& sines,
+              DiscNodes<count>& nodes) const {
+  using Nodes = Eigen::Matrix<double, count, 1>;
+  Nodes c = cosines, s = sines;
+  nodes.h.setConstant(u_(0, 2));
+  for (Nodes* derivative : {&nodes.v[0], &nodes.v[1], &nodes.a[0], &nodes.a[1], &nodes.dh, &nodes.ddh})
+    derivative->setZero();
+  for (int n = 1; n <= harmonics_.order; ++n) {
+    for (int i = 0; i < 3; ++i) {
+      const double a = u_(n, i), b = u_(harmonics_.order + n, i), square = static_cast<double>(n) * n;
+      const Nodes even = a * c + b * s;
+      (i < 2 ? nodes.v[i] : nodes.dh) += (n * b) * c - (n * a) * s;
+      (i < 2 ? nodes.a[i] : nodes.ddh) -= square * even;
+      if (i == 2) nodes.h += even;
+    }
+    const Nodes next = c.cwiseProduct(cosines) - s.cwiseProduct(sines);
+    s = s.cwiseProduct(cosines) + c.cwiseProduct(sines);
+    c = next;
+  }
+}
 
 }  // namespace arcslip::elements

@@ -85,6 +85,15 @@ void turn_to_psi(SlipPanel& panel) {
   cosines_and_sines(panel.psi, panel.outward[0], panel.outward[1]);
 }
 
+// About exp(-z) and atan(t), which is enough for a guess.
+double decay(double z) {
+  return 1 / (1 + z * (1 + z * (1.0 / 2 + z * (1.0 / 6 + z / 24))));
+}
+double turning(double t) {
+  const double square = t * t;
+  return square < 0.1 ? t * (1 - square * (1.0 / 3 - square / 5)) : std::atan(t);
+}
+
 // n at the nodes, where psi becomes less by a step.
 void turn(const SlipPanel::Nodes& step, double size, SlipPanel& panel) {
   if (size > small_turn) return turn_to_psi(panel);
@@ -135,8 +144,12 @@ void SlipFactors::factorize(const SlipPanel::Square& matrix) {
   for (int k = 0; k < panel_nodes; ++k) {
     inverse_[k] = 1 / lu_(k, k);
     for (int i = k + 1; i < panel_nodes; ++i) lu_(i, k) *= inverse_[k];
+    // In pairs of rows: where k is the first of one, it stays as it is.
+    SlipPanel::Nodes below = lu_.col(k);
+    below[k] = 0;
+    const int pairs = (k + 1) & ~1;
     for (int j = k + 1; j < panel_nodes; ++j)
-      for (int i = k + 1; i < panel_nodes; ++i) lu_(i, j) -= lu_(i, k) * lu_(k, j);
+      for (int i = pairs; i < panel_nodes; ++i) lu_(i, j) -= below[i] * lu_(k, j);
   }
 }
 
@@ -169,22 +182,19 @@ void SlipCollocation::guess(const Disc& disc, SlipPanel& panel) const {
     const double speed = sum.norm(), width = h + panel.h[j];
     if (speed > 0) {
       const Eigen::Vector2d along = sum / speed;
-      const double e = width > 0 ? std::exp(-(panel.theta[j] - theta) * speed / width) : 0;
+      const double e = width > 0 ? decay((panel.theta[j] - theta) * speed / width) : 0;
       Eigen::Vector2d next(along[0] * half[0] + along[1] * half[1], along[1] * half[0] - along[0] * half[1]);
       next = (1 + e) * half + (1 - e) * next;
       const double turned = half[0] * next[1] - half[1] * next[0], kept = half.dot(next);
-      if (kept > 0) psi += 2 * std::atan(turned / kept);
-      const double size = next.norm();
-      if (size > 1e-100) half = next / size;
+      if (kept > 0) psi += 2 * turning(turned / kept);
+      if (next.squaredNorm() > 1e-100) half = next;
     }
     panel.psi[j] = psi;
-    const double square = half.squaredNorm();
-    panel.outward[0][j] = (half[0] - half[1]) * (half[0] + half[1]) / square;
-    panel.outward[1][j] = 2 * half[0] * half[1] / square;
     theta = panel.theta[j];
     h = panel.h[j];
     v = here;
   }
+  turn_to_psi(panel);
 }
 
 void SlipCollocation::place(const Disc& disc, double begin, double end, SlipPanel& panel) const {
@@ -193,16 +203,8 @@ void SlipCollocation::place(const Disc& disc, double begin, double end, SlipPane
   panel.theta = begin + 0.5 * (end - begin) * (1 + nodes_.array());
   panel.theta[panel_nodes - 1] = end;
   cosines_and_sines(panel.theta, panel.cosine, panel.sine);
-  for (int j = 0; j < panel_nodes; ++j) {
-    const DiscPoint p = disc.at(panel.cosine[j], panel.sine[j]);
-    panel.h[j] = std::max(p.h, 0.0);
-    panel.dh[j] = p.dh;
-    panel.ddh[j] = p.ddh;
-    for (int i = 0; i < 2; ++i) {
-      panel.v[i][j] = p.v[i];
-      panel.a[i][j] = p.a[i];
-    }
-  }
+  disc.at<panel_nodes>(panel.cosine, panel.sine, panel);
+  panel.h = panel.h.cwiseMax(0.0);
 }
 
 void SlipCollocation::set_rate(SlipPanel& panel) const {
@@ -271,7 +273,7 @@ double SlipCollocation::solve_near(const Disc& disc, const SlipPanel& known, dou
     panel = known;
   } else {
     place(disc, begin, end, panel);
-    for (int j = 0; j < panel_nodes; ++j) panel.psi[j] = psi(known, panel.theta[j]);
+    interpolate(known, panel.theta, panel.psi);
     turn_to_psi(panel);
   }
   const double turns = whole_turn * std::round((from - known.from) / whole_turn);
@@ -299,6 +301,21 @@ SlipPanel::Square SlipCollocation::matrix(const SlipPanel& panel) const {
 
 SlipPanel::Nodes SlipCollocation::column(const SlipPanel& panel) const {
   return 2 / panel.length() * panel.h.cwiseProduct(by_first_);
+}
+
+// psi at several angles.
+void SlipCollocation::interpolate(const SlipPanel& panel, const SlipPanel::Nodes& theta,
+                                  SlipPanel::Nodes& values) const {
+  const SlipPanel::Nodes t = 2 / panel.length() * (theta.array() - panel.begin) - 1;
+  SlipPanel::Nodes weight = barycentric_[0] * (t.array() + 1).inverse(), sum = weight * panel.from;
+  for (int i = 0; i < panel_nodes; ++i) {
+    const SlipPanel::Nodes share = barycentric_[i + 1] * (t.array() - nodes_[i]).inverse();
+    weight += share;
+    sum += share * panel.psi[i];
+  }
+  values = sum.cwiseQuotient(weight);
+  for (int j = 0; j < panel_nodes; ++j)
+    if (!std::isfinite(values[j])) values[j] = psi(panel, theta[j]);
 }
 
 double SlipCollocation::psi(const SlipPanel& panel, double theta) const {

@@ -18,17 +18,14 @@ namespace arcslip::elements {
 
 constexpr int panel_nodes = 10;
 
-struct SlipPanel {
-  using Nodes = Eigen::Matrix<double, panel_nodes, 1>;
+struct SlipPanel : DiscNodes<panel_nodes> {  // x', x'', h, h', h'' at the nodes
   using Square = Eigen::Matrix<double, panel_nodes, panel_nodes>;
 
   double begin = 0, end = 0;
   double from = 0;            // psi at the beginning
-  Nodes theta, psi, h;        // at the nodes
+  Nodes theta, psi;           // at the nodes
   Nodes cosine, sine;         // of theta
   Nodes outward[2], turn[2];  // n and t
-  Nodes v[2], a[2];           // x', x''
-  Nodes dh, ddh;              // h', h''
   Nodes along, across;        // x'.n and x'.t
   Nodes rate;                 // psi'
   Nodes spare;                // x'.n - h', the speed of slip
@@ -88,6 +85,7 @@ class SlipCollocation {
 
  private:
   void place(const Disc& disc, double begin, double end, SlipPanel& panel) const;
+  void interpolate(const SlipPanel& panel, const SlipPanel::Nodes& theta, SlipPanel::Nodes& values) const;
   void guess(const Disc& disc, SlipPanel& panel) const;
   double newton(double tolerance, SlipPanel& panel) const;
   void set_rate(SlipPanel& panel) const;

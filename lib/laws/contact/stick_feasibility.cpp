@@ -131,7 +131,8 @@ StickCentre::StickCentre(const Harmonics& harmonics)
     : harmonics_(harmonics),
       disc_(harmonics),
       varying_(harmonics.size(), 3),
-      samples_(static_cast<std::size_t>(12 * harmonics.order + 48)),
+      angles_(12 * harmonics.order + 48),
+      samples_(angles_.theta.size()),
       excess_(samples_.size()) {}
 
 StickCentre::Point StickCentre::point(double theta) const {
@@ -139,22 +140,24 @@ StickCentre::Point StickCentre::point(double theta) const {
   return {theta, p.x, p.h};
 }
 
-// The local maximum of the excess near an angle.
+// The local maximum of the excess near an angle. A step that is so short is the last one, since the error
+// after it is of its square, and that of the excess of its fourth power.
 double StickCentre::climb(double theta) const {
+  constexpr double last_step = 1e-8;
   const double reach = whole_turn / static_cast<double>(samples_.size()), begin = theta;
-  double value = Excess(disc_.at(theta), w_).value;
+  Excess at(disc_.at(theta), w_);
   for (int i = 0; i < 30; ++i) {
-    const Excess at(disc_.at(theta), w_);
     double step = at.d2 < 0 ? -at.d1 / at.d2 : (at.d1 > 0 ? reach / 8 : -reach / 8);
     step = std::clamp(step, begin - 1.5 * reach - theta, begin + 1.5 * reach - theta);
-    double next = Excess(disc_.at(theta + step), w_).value;
-    for (int halvings = 0; next < value && halvings < 40; ++halvings) {
+    if (at.d2 < 0 && std::abs(step) < last_step) return theta + step;
+    Excess next(disc_.at(theta + step), w_);
+    for (int halvings = 0; next.value < at.value && halvings < 40; ++halvings) {
       step *= 0.5;
-      next = Excess(disc_.at(theta + step), w_).value;
+      next = Excess(disc_.at(theta + step), w_);
     }
-    if (next < value) break;
+    if (next.value < at.value) break;
     theta += step;
-    value = next;
+    at = next;
     if (std::abs(step) < 1e-13) break;
   }
   return theta;
@@ -230,8 +233,7 @@ void StickCentre::find(const Disc& disc) {
   const double size = disc_.motion_bound(0);
   active_.clear();
   w_.setZero();
-  for (std::size_t k = 0; k < samples_.size(); ++k)
-    samples_[k] = point(whole_turn * static_cast<double>(k) / static_cast<double>(samples_.size()));
+  disc_.at(angles_, 1, samples_);
   const auto least = std::min_element(samples_.begin(), samples_.end(),
                                       [](const Point& a, const Point& b) { return a.h < b.h; });
   if (!(size > 0)) {

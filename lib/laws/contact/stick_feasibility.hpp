@@ -13,12 +13,6 @@
 
 namespace arcslip::elements {
 
-/// The disc at one angle, rad.
-struct DiscInstant {
-  double theta;
-  Eigen::Vector2d x;
-  double h;
-};
 /// w and r with |x - w| - h = r at two or three instants: the minimiser for these, if all of them decide it.
 struct StickMargin {
   Eigen::Vector2d w;
@@ -62,7 +56,8 @@ class StickCentre {
   Eigen::Matrix<double, Eigen::Dynamic, 3> varying_;
   Eigen::Vector2d mean_x_ = Eigen::Vector2d::Zero();
   double mean_h_ = 0, unit_ = 1;
-  std::vector<Point> samples_;
+  DiscAngles angles_;
+  std::vector<Point> samples_;  // there
   std::vector<double> excess_;
   Eigen::Vector2d w_ = Eigen::Vector2d::Zero();  // from mean_x_, in units
   double r_ = 0;                                 // above -mean_h_, in units
