@@ -6,6 +6,7 @@
 #include <new>
 #include <vector>
 
+#include <dlfcn.h>
 #include <sys/mman.h>
 
 extern "C" {
@@ -30,6 +31,21 @@ void ztrsm_(const char* side, const char* part, const char* transposed, const ch
 
 namespace arcslip::continuation::lapack {
 
+namespace {
+
+// OpenBLAS built for one thread has buffers that its calls share: two at a time lose the values of each
+// other. Only one that is built for several threads is known to keep them apart.
+std::unique_lock<std::mutex> alone() {
+  static std::mutex mutex;
+  static const bool is_for_threads = [] {
+    void* const found = ::dlsym(RTLD_DEFAULT, "openblas_get_parallel");
+    return found != nullptr && reinterpret_cast<int (*)()>(found)() != 0;
+  }();
+  return is_for_threads ? std::unique_lock<std::mutex>() : std::unique_lock(mutex);
+}
+
+}  // namespace
+
 void require_memory() {
   static std::once_flag known;
   std::call_once(known, [] {
@@ -43,18 +59,21 @@ void require_memory() {
 
 void factorize(int n, double* A, int* exchanges) {
   require_memory();
+  const auto lock = alone();
   int info = 0;
   dgetrf_(&n, &n, A, &n, exchanges, &info);
 }
 
 void factorize(int n, std::complex<double>* A, int* exchanges) {
   require_memory();
+  const auto lock = alone();
   int info = 0;
   zgetrf_(&n, &n, A, &n, exchanges, &info);
 }
 
 void solve_triangle(const char* part, const char* diagonal, int n, int columns, const double* A, double* B) {
   require_memory();
+  const auto lock = alone();
   const double one = 1;
   dtrsm_("L", part, "N", diagonal, &n, &columns, &one, A, &n, B, &n);
 }
@@ -62,6 +81,7 @@ void solve_triangle(const char* part, const char* diagonal, int n, int columns, 
 void solve_triangle(const char* part, const char* diagonal, int n, int columns, const std::complex<double>* A,
                     std::complex<double>* B) {
   require_memory();
+  const auto lock = alone();
   const std::complex<double> one = 1;
   ztrsm_("L", part, "N", diagonal, &n, &columns, &one, A, &n, B, &n);
 }
@@ -69,6 +89,7 @@ void solve_triangle(const char* part, const char* diagonal, int n, int columns, 
 void multiply(bool transposed, double alpha, const Columns& A, const Columns& B, double beta, double* C,
               int stride) {
   require_memory();
+  const auto lock = alone();
   const int m = transposed ? A.cols : A.rows;
   const auto at_least_one = [](int of) { return std::max(of, 1); };
   const int lda = at_least_one(A.stride), ldb = at_least_one(B.stride), ldc = at_least_one(stride);
@@ -78,6 +99,7 @@ void multiply(bool transposed, double alpha, const Columns& A, const Columns& B,
 
 bool symmetric_modes(bool with_vectors, int n, double* A, double* B, double* values) {
   require_memory();
+  const auto lock = alone();
   const char* job = with_vectors ? "V" : "N";
   const int type = 1;
   int info = 0, integers_size = -1, work_size = -1;

@@ -9,7 +9,8 @@ namespace arcslip::continuation::lapack {
 inline constexpr int smallest_lu = 100;
 
 /// Each function throws std::bad_alloc where OpenBLAS would not get the memory of its first use, for which it
-/// asks without an end.
+/// asks without an end. Threads may call them at the same time: where BLAS may not be, one waits for the
+/// other.
 void require_memory();
 
 /// P A = L U in place, rows i and exchanges[i] - 1 exchanged one after the other. A zero pivot stays in U. A

@@ -7,8 +7,11 @@
 
 #include <Eigen/Dense>
 
+#include <atomic>
 #include <cmath>
+#include <thread>
 #include <utility>
+#include <vector>
 
 using namespace bordered;
 
@@ -29,6 +32,27 @@ TEST_CASE("bordered solves and transposed solves leave residuals at rounding lev
       CHECK((B.transpose() * y - b).norm() < 1e-13 * n * B.norm() * y.norm());
       CHECK(lu->determinant_sign() == (B.determinant() > 0 ? 1 : -1));
     }
+}
+
+TEST_CASE("systems of 144 unknowns that sixteen threads solve at the same time have the bits of one alone") {
+  const Matrix J = Matrix::Random(144, 144);
+  const Vector b = Vector::Random(144);
+  const auto solved = [&] {
+    const auto lu = dense_lu();
+    Vector x = b;
+    if (lu->factorize(J, random_borders(144, 0))) lu->solve(x);
+    return x;
+  };
+  const Vector alone = solved();
+  CHECK((J * alone - b).norm() < 1e-11 * alone.norm());
+  std::atomic<int> others = 0;
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 16; ++t)
+    threads.emplace_back([&] {
+      for (int k = 0; k < 400; ++k) others += solved() != alone;
+    });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(others == 0);
 }
 
 namespace {
