@@ -139,6 +139,43 @@ TEST_CASE("a slider sticks throughout iff one place is within every disc, and re
   }
 }
 
+TEST_CASE("a disc at many angles at once is that of the three series at each") {
+  const elements::Harmonics h{4, false};
+  const Eigen::Index c = h.size();
+  const Vector u = contacts::random_plane(h, 1, 1, 5);
+  elements::Disc disc(h);
+  disc.set(u.head(c), u.segment(c, c), u.tail(c));
+  const elements::DiscAngles angles(27);
+  std::vector<elements::DiscInstant> instants(27, {-1, Vector2d::Zero(), 0});
+  disc.at(angles, 4, instants);
+  for (std::size_t k = 0; k < instants.size(); ++k) {
+    CAPTURE(k);
+    const auto& at = instants[k];
+    if (k % 4 != 0) {
+      CHECK(at.theta == -1);
+      continue;
+    }
+    CHECK(std::abs(at.theta - 2 * pi * static_cast<double>(k) / 27) < 1e-15);
+    CHECK(std::abs(at.x[0] - elements::series_values(h, u.head(c), at.theta).x) < 1e-14);
+    CHECK(std::abs(at.x[1] - elements::series_values(h, u.segment(c, c), at.theta).x) < 1e-14);
+    CHECK(std::abs(at.h - elements::series_values(h, u.tail(c), at.theta).x) < 1e-14);
+  }
+  elements::DiscNodes<3> nodes;
+  const Eigen::Vector3d theta(0.3, 2, 5);
+  disc.at<3>(theta.array().cos(), theta.array().sin(), nodes);
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      const elements::Values x = elements::series_values(h, u.segment(i * c, c), theta[j]);
+      CHECK(std::abs(nodes.v[i][j] - x.d1) < 1e-13);
+      CHECK(std::abs(nodes.a[i][j] - x.d2) < 1e-13);
+    }
+    const elements::Values radius = elements::series_values(h, u.tail(c), theta[j]);
+    CHECK(std::abs(nodes.h[j] - radius.x) < 1e-14);
+    CHECK(std::abs(nodes.dh[j] - radius.d1) < 1e-13);
+    CHECK(std::abs(nodes.ddh[j] - radius.d2) < 1e-13);
+  }
+}
+
 TEST_CASE(
     "a panel of slip that is too long is reported as not solved, and a short one is exact on a circle") {
   // x = (cos, sin): slip goes round with sin(theta + pi/2 - psi) = h.
