@@ -41,10 +41,12 @@ void tell_beyond_reduction(const scene::Scene& scene, const std::vector<scene::S
 
 void tell_rough_reduction(const scene::Scene& scene) {
   if (scene.studies.empty())
-    if (const std::string doubt = studies::doubt_of_reduction(scene, {}, by_signal()); !doubt.empty())
+    if (const std::string doubt = studies::doubt_of_reduction(scene, 0, by_signal()); !doubt.empty())
       tell(doubt);
   for (const scene::Study& study : scene.studies)
-    if (const std::string doubt = studies::doubt_of_reduction(scene, study, by_signal()); !doubt.empty())
+    if (const std::string doubt =
+            studies::doubt_of_reduction(scene, scene::highest_harmonic(scene, study), by_signal());
+        !doubt.empty())
       tell("for the study \"" + study.name + "\" " + doubt);
 }
 

@@ -33,19 +33,6 @@ namespace arcslip::continuation::lapack {
 
 namespace {
 
-// OpenBLAS built for one thread has buffers that its calls share: two at a time lose the values of each
-// other. Only one that is built for several threads is known to keep them apart.
-std::unique_lock<std::mutex> alone() {
-  static std::mutex mutex;
-  static const bool is_for_threads = [] {
-    void* const found = ::dlsym(RTLD_DEFAULT, "openblas_get_parallel");
-    return found != nullptr && reinterpret_cast<int (*)()>(found)() != 0;
-  }();
-  return is_for_threads ? std::unique_lock<std::mutex>() : std::unique_lock(mutex);
-}
-
-}  // namespace
-
 void require_memory() {
   static std::once_flag known;
   std::call_once(known, [] {
@@ -57,39 +44,48 @@ void require_memory() {
   });
 }
 
-void factorize(int n, double* A, int* exchanges) {
+}  // namespace
+
+// OpenBLAS built for one thread has buffers that its calls share: two at a time lose the values of each
+// other. Only one that is built for several threads is known to keep them apart.
+std::unique_lock<std::mutex> use() {
   require_memory();
-  const auto lock = alone();
+  static std::mutex mutex;
+  static const bool is_for_threads = [] {
+    void* const found = ::dlsym(RTLD_DEFAULT, "openblas_get_parallel");
+    return found != nullptr && reinterpret_cast<int (*)()>(found)() != 0;
+  }();
+  return is_for_threads ? std::unique_lock<std::mutex>() : std::unique_lock(mutex);
+}
+
+void factorize(int n, double* A, int* exchanges) {
+  const auto in_use = use();
   int info = 0;
   dgetrf_(&n, &n, A, &n, exchanges, &info);
 }
 
 void factorize(int n, std::complex<double>* A, int* exchanges) {
-  require_memory();
-  const auto lock = alone();
+  const auto in_use = use();
   int info = 0;
   zgetrf_(&n, &n, A, &n, exchanges, &info);
 }
 
 void solve_triangle(const char* part, const char* diagonal, int n, int columns, const double* A, double* B) {
-  require_memory();
-  const auto lock = alone();
+  const auto in_use = use();
   const double one = 1;
   dtrsm_("L", part, "N", diagonal, &n, &columns, &one, A, &n, B, &n);
 }
 
 void solve_triangle(const char* part, const char* diagonal, int n, int columns, const std::complex<double>* A,
                     std::complex<double>* B) {
-  require_memory();
-  const auto lock = alone();
+  const auto in_use = use();
   const std::complex<double> one = 1;
   ztrsm_("L", part, "N", diagonal, &n, &columns, &one, A, &n, B, &n);
 }
 
 void multiply(bool transposed, double alpha, const Columns& A, const Columns& B, double beta, double* C,
               int stride) {
-  require_memory();
-  const auto lock = alone();
+  const auto in_use = use();
   const int m = transposed ? A.cols : A.rows;
   const auto at_least_one = [](int of) { return std::max(of, 1); };
   const int lda = at_least_one(A.stride), ldb = at_least_one(B.stride), ldc = at_least_one(stride);
@@ -98,8 +94,7 @@ void multiply(bool transposed, double alpha, const Columns& A, const Columns& B,
 }
 
 bool symmetric_modes(bool with_vectors, int n, double* A, double* B, double* values) {
-  require_memory();
-  const auto lock = alone();
+  const auto in_use = use();
   const char* job = with_vectors ? "V" : "N";
   const int type = 1;
   int info = 0, integers_size = -1, work_size = -1;

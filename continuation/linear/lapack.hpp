@@ -2,16 +2,17 @@
 // What is used of BLAS and LAPACK, for matrices whose columns are contiguous. Not installed.
 
 #include <complex>
+#include <mutex>
 
 namespace arcslip::continuation::lapack {
 
 // From here on LAPACK is faster than Eigen: with SSE2 1.6 times at 100, 2.0 at 160, 2.8 at 840 unknowns.
 inline constexpr int smallest_lu = 100;
 
-/// Each function throws std::bad_alloc where OpenBLAS would not get the memory of its first use, for which it
-/// asks without an end. Threads may call them at the same time: where BLAS may not be, one waits for the
-/// other.
-void require_memory();
+/// To be held while BLAS is called, also by other libraries: where it may not be called by several threads at
+/// a time, they wait for each other. Throws std::bad_alloc where OpenBLAS would not get the memory of its
+/// first use, for which it asks without an end. The functions below hold it.
+[[nodiscard]] std::unique_lock<std::mutex> use();
 
 /// P A = L U in place, rows i and exchanges[i] - 1 exchanged one after the other. A zero pivot stays in U. A
 /// NaN may be lost, as a kernel may pass over products with 0.

@@ -134,7 +134,7 @@ class Truncation {
 ///
 /// It is computed at events, at the points next to them, and at every k-th one: k = 1, 2, 4, 8 while a line
 /// through the last two gives the next one within 10 %; but not further apart than 0.5 % of the parameter.
-/// Where both are flagged, which tells little, k doubles without it, and they are not further apart than 2 %.
+/// Where both are flagged, and may be too low, k doubles without it, and they are not further apart than 2 %.
 /// Points between have that of the line between their neighbours, and the last one until the next is
 /// computed. Where the neighbours differ by more than half, as next to a resonance of a harmonic left out,
 /// they have the larger one and are flagged; so are they if a neighbour is.

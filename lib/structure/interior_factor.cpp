@@ -28,8 +28,10 @@ bool InteriorFactor::factorize(const Sparse& A) {
   // Minimum degree alone: METIS, which CHOLMOD also tries, takes SIGTERM for itself meanwhile.
   of_.cholmod().nmethods = 1;
   of_.cholmod().method[0].ordering = CHOLMOD_AMD;
-  continuation::lapack::require_memory();
-  of_.compute(A);
+  {
+    const auto blas = continuation::lapack::use();
+    of_.compute(A);
+  }
   listen(control_);
   return of_.info() == Eigen::Success;
 }
@@ -40,6 +42,7 @@ MatrixXd InteriorFactor::solve_some_at_once(const Columns& right) const {
   for (Index from = 0; from < right.cols(); from += columns_at_once) {
     listen(control_);
     const Index count = std::min(columns_at_once, right.cols() - from);
+    const auto blas = continuation::lapack::use();
     x.middleCols(from, count) = of_.solve(MatrixXd(right.middleCols(from, count)));
   }
   listen(control_);

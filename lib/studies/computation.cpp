@@ -117,7 +117,7 @@ std::vector<results::Result> results_of(const Computation& computation, Computed
                                         const scene::Study& study, scene::Scene& with_order) {
   with_order.harmonics = computed.harmonics;
   const std::string beyond = scene::beyond_reduction(with_order, study),
-                    rough = doubt_of_reduction(with_order, study);
+                    rough = doubt_of_reduction(with_order, scene::highest_harmonic(with_order, study));
   std::vector<results::Result> all;
   for (std::size_t i = 0; i < computed.items->size(); ++i) {
     computed.items->put_study(i, study);

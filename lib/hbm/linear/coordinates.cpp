@@ -14,21 +14,31 @@ constexpr double much_stiffer = 1e4;   // than the softest part: five digits are
 
 using Directions = std::vector<Eigen::VectorXd>;
 
+// Of directions that are added, those far from depending on others come first, as neighbours along a joint
+// move nearly alike: what they have outside of the span of those before.
+constexpr double shares_outside[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, independent};
+
 // A largest independent set, in the order of the directions, with an orthonormal basis of its span.
 class Independent {
  public:
   explicit Independent(int dofs) : chosen_(dofs, 0), orthonormal_(dofs, 0) {}
 
-  bool add(const Eigen::VectorXd& d) {
+  bool add(const Eigen::VectorXd& d, double least = independent) {
     if (chosen_.cols() == chosen_.rows()) return false;
     const Eigen::VectorXd rest = outside(d);
-    if (rest.norm() < independent) return false;
+    if (rest.norm() < least) return false;
     const Eigen::Index r = chosen_.cols();
     chosen_.conservativeResize(Eigen::NoChange, r + 1);
     orthonormal_.conservativeResize(Eigen::NoChange, r + 1);
     chosen_.col(r) = d;
     orthonormal_.col(r) = rest.normalized();
     return true;
+  }
+  void add_far_first(const Directions& directions) {
+    std::vector<const Eigen::VectorXd*> left;
+    for (const Eigen::VectorXd& d : directions) left.push_back(&d);
+    for (const double least : shares_outside)
+      std::erase_if(left, [&](const auto* d) { return add(*d, least); });
   }
   bool spans(const Eigen::VectorXd& d) const { return outside(d).norm() < independent; }
   const Eigen::MatrixXd& chosen() const { return chosen_; }
@@ -96,7 +106,7 @@ Coordinates coordinates(const model::Model& model, double frequency) {
   }
   if (directions.empty()) directions.push_back(model.response);
   Independent elements(model.dofs);
-  for (const Eigen::VectorXd& d : directions) elements.add(d);
+  elements.add_far_first(directions);
 
   Coordinates c;
   c.unknowns = static_cast<int>(elements.chosen().cols());
@@ -104,7 +114,7 @@ Coordinates coordinates(const model::Model& model, double frequency) {
   const Directions stiff = stiff_directions(model);
   Independent chosen(model.dofs);
   for (const auto& d : stiff_between_elements(stiff, elements, model.dofs)) chosen.add(d);
-  for (const Eigen::VectorXd& d : directions) chosen.add(d);
+  chosen.add_far_first(directions);
   for (const auto& d : stiff) chosen.add(d);
   const Eigen::MatrixXd& B = chosen.chosen();
   // B^T x = (unknowns, elongations): x = B (B^T B)^-1 (unknowns, elongations) + (null space of B^T) * the

@@ -5,7 +5,6 @@
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/text.hpp>
 #include <arcslip/results/version.hpp>
-#include <arcslip/studies/highest_harmonic.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -149,15 +148,14 @@ void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown,
   add_parts(scene.patches, "patches");
 }
 
-std::string doubt_of_reduction(const scene::Scene& scene, const scene::Study& study,
+std::string doubt_of_reduction(const scene::Scene& scene, double highest_harmonic,
                                const control::Control& control) {
   if (!scene.matrices ||
       (scene.matrices->errors.empty() && scene.matrices->reduction.method == scene::ReductionMethod::krylov))
     return {};
   auto found = observables::error_of_reduction(scene, 0, control);
   if (!found || found->error <= largest_error_of_reduction) return {};
-  if (const double frequency = scene::highest_harmonic(scene, study); frequency > 0)
-    found = observables::error_of_reduction(scene, frequency, control);
+  if (highest_harmonic > 0) found = observables::error_of_reduction(scene, highest_harmonic, control);
   if (found->error <= largest_error_of_reduction) return {};
   return "the reduction of the structure may have an error of " + results::quantity(found->error, "") +
          " up to " + results::quantity(found->frequency, scene::unit_name(scene.frequency_unit)) +

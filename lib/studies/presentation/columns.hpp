@@ -37,8 +37,9 @@ void add_columns(const scene::Scene& scene, const NamedValues& set, std::vector<
 void add_stick(const scene::Scene& scene, std::vector<results::Shown>& shown,
                const std::vector<std::string>& doubts = {"truncation_flagged"});
 
-/// Why results with a structure that is reduced by modes may be wrong; empty: no reason.
-std::string doubt_of_reduction(const scene::Scene& scene, const scene::Study& study,
+/// Why results with a structure that is reduced by modes may be wrong up to a frequency, in the scene's unit;
+/// 0: all that the reduction is for. Empty: no reason.
+std::string doubt_of_reduction(const scene::Scene& scene, double highest_harmonic,
                                const control::Control& control = {});
 
 /// Reduces the matrices of the scene, if they are to be: observables::reduction().
