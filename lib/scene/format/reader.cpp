@@ -12,8 +12,7 @@
 #include <arcslip/scene/keys/read_parts.hpp>
 #include <arcslip/scene/keys/read_studies.hpp>
 #include <arcslip/scene/keys/read_text.hpp>
-#include <arcslip/scene/keys/study_parameters.hpp>
-#include <arcslip/scene/keys/write_values.hpp>
+#include <arcslip/scene/keys/section_keys.hpp>
 #include <arcslip/scene/patch.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/shape.hpp>
@@ -39,33 +38,6 @@ void read_format(const Keys& keys, Faults& faults) {
                "found \"ties\", which belongs to format " + quoted(first_format_name) +
                    "; must be a constant, {\"constants\": {\"load\": 3}}, that takes the place of "
                    "the number in each field: \"normal_load\": \"load\"");
-}
-
-// By the default accuracy, for each period of the excitation: no minutes that nobody has asked for.
-constexpr int default_highest = 55;
-
-Harmonics read_harmonics(const Location& place, Faults& faults) {
-  Harmonics harmonics;
-  harmonics.accuracy = default_accuracy;
-  harmonics.order = default_highest;
-  if (place.node != nullptr) {
-    const Keys keys(place, {"order", "accuracy", "period", "friction", "samples", "kinks"}, faults);
-    const Field accuracy{"accuracy", "-", finest_accuracy, coarsest_accuracy};
-    const Location order = keys.find("order"), wanted = keys.find("accuracy");
-    harmonics.period =
-        read_integer(keys.find("period"), 1, largest_period, faults).value_or(harmonics.period);
-    harmonics.accuracy =
-        read_number(wanted, accuracy, faults).value_or(order.node != nullptr ? 0 : default_accuracy);
-    const int highest = wanted.node != nullptr ? largest_chosen_order
-                                               : std::min(default_highest * harmonics.period, largest_order);
-    harmonics.order = read_integer(order, 1, largest_order, faults).value_or(highest);
-    harmonics.friction = read_choice(keys.find("friction"), friction_methods, harmonics.friction, faults);
-    harmonics.samples = read_integer(keys.find("samples"), 1, largest_samples, faults,
-                                     ", and at least 4*order + 4 where it is used")
-                            .value_or(harmonics.samples);
-    harmonics.kinks = read_choice(keys.find("kinks"), kinks_words, harmonics.kinks, faults);
-  }
-  return harmonics;
 }
 
 constexpr std::string_view wanted_response =
@@ -254,7 +226,8 @@ Scene read_scene(const Node& node, const Ring& ring, const Catalogue& catalogue,
   resolve_numbers(scene, names, parts_sound, faults);
 
   const std::size_t before_harmonics = faults.count();
-  scene.harmonics = read_harmonics(root.find("harmonics"), faults);
+  scene.harmonics = read_section(root.find("harmonics"), harmonics_keys(), any_number, source, dofs, faults)
+                        .as<Harmonics>();
   if (is_sound(before_harmonics)) {
     check_samples(scene, faults);
     if (scene.cyclic) check_cyclic(scene, faults);

@@ -5,6 +5,7 @@
 #include <arcslip/scene/format/mistuning.hpp>
 #include <arcslip/scene/format/repeat.hpp>
 #include <arcslip/scene/format/tree_lookup.hpp>
+#include <arcslip/scene/keys/section_keys.hpp>
 #include <arcslip/scene/part_type.hpp>
 
 #include <algorithm>
@@ -13,7 +14,8 @@
 #include <unordered_set>
 #include <utility>
 
-namespace arcslip::scene::file {
+namespace arcslip::scene {
+namespace file {
 namespace {
 
 constexpr const char* cyclic_place = "/structure/cyclic";
@@ -26,15 +28,29 @@ bool read_full(const Location& full, Faults& faults) {
   return is != nullptr && *is;
 }
 
-std::optional<Cyclic> read_numbers(const Keys& keys, Faults& faults) {
-  const auto required = [&](const char* key, int lower, int upper) {
-    const std::string wanted = "an integer from " + std::to_string(lower) + " to " + std::to_string(upper);
-    return read_integer(keys.require(key, wanted, faults), lower, upper, faults);
-  };
-  const auto sectors = required("sectors", least_sectors, largest_sectors);
-  const auto order = required("engine_order", -largest_engine_order, largest_engine_order);
-  if (!sectors || !order) return {};
-  return Cyclic{*sectors, *order};
+KeysOf<Cyclic> keys_of_cyclic() {
+  KeysOf<Cyclic> all;
+  all.add(required(whole("sectors", &Cyclic::sectors, least_sectors, largest_sectors, "of the ring")));
+  all.add(required(whole("engine_order", &Cyclic::engine_order, -largest_engine_order, largest_engine_order,
+                         "m: the excitation of the next sector is that of this one, later by m/sectors of a "
+                         "period, in every harmonic")));
+  all.add(
+      {{flag("full", false, "all sectors instead of one").keys.front(),
+        key_of(
+            "mistuning", "-", "an object with a list of numbers for each of some parameters",
+            "of a full ring: `\"kb.value\"` of sector i is multiplied by number i of its list, and so is the "
+            "stiffness matrix by that of `\"matrices.stiffness\"`",
+            R"({"type": "object", "additionalProperties":
+                       {"type": "array", "items": {"type": ["number", "string"]}}})")},
+       [](const Reading& reading, Cyclic&) {
+         const bool full = read_full(reading.keys.find("full"), reading.faults);
+         if (const Location mistuning = reading.keys.find("mistuning"); mistuning.node != nullptr && !full)
+           reading.faults.add(
+               mistuning.pointer,
+               "found \"mistuning\", which belongs to a full ring; must have \"full\": true next to it");
+       },
+       [](const Cyclic&, const Scene&, Node::Object&) {}});
+  return all;
 }
 
 /// The entries of one sector, changed to entries that stand for all.
@@ -249,13 +265,9 @@ void refuse_copies(Node& scene, Faults& faults) {
 
 std::optional<Cyclic> read_cyclic(const Location& at, Faults& faults) {
   if (at.node == nullptr) return {};
-  const Keys keys(at, {"sectors", "engine_order", "full", "mistuning"}, faults);
-  if (!keys.is_object()) return {};
-  if (const Location mistuning = keys.find("mistuning"); mistuning.node != nullptr)
-    faults.add(mistuning.pointer,
-               "found \"mistuning\", which belongs to a full ring; must have \"full\": true next to it");
-  read_full(keys.find("full"), faults);
-  return read_numbers(keys, faults);
+  const std::size_t before = faults.count();
+  const auto read = read_section(at, cyclic_keys(), any_number, FileSource(), Dofs(), faults).as<Cyclic>();
+  return faults.count() == before ? std::optional(read) : std::nullopt;
 }
 
 Ring write_out_ring(Node& scene, const FileSource& source, Origins& origins, Faults& faults) {
@@ -263,8 +275,7 @@ Ring write_out_ring(Node& scene, const FileSource& source, Origins& origins, Fau
   Node* cyclic = find(structure, "cyclic");
   Faults reported_later;
   if (!read_full({find(cyclic, "full"), {}}, reported_later)) return {};
-  const Keys keys({cyclic, cyclic_place}, {"sectors", "engine_order", "full", "mistuning"}, faults);
-  const auto of = read_numbers(keys, faults);
+  const auto of = read_cyclic({cyclic, cyclic_place}, faults);
   for (const char* key : {"beam", "rod"})
     if (find(structure, key) != nullptr)
       faults.add(child(cyclic_place, "full"),
@@ -315,4 +326,11 @@ void tie_sectors(const Ring& ring, Scene& scene) {
     }
 }
 
-}  // namespace arcslip::scene::file
+}  // namespace file
+
+const SettingsKeys& cyclic_keys() {
+  static const file::KeysOf<Cyclic> all = file::keys_of_cyclic();
+  return all;
+}
+
+}  // namespace arcslip::scene

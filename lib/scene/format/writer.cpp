@@ -4,7 +4,7 @@
 #include <arcslip/scene/files/matrix_file.hpp>
 #include <arcslip/scene/keys/enum_words.hpp>
 #include <arcslip/scene/keys/json_tree.hpp>
-#include <arcslip/scene/keys/write_values.hpp>
+#include <arcslip/scene/keys/section_keys.hpp>
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/scene.hpp>
 #include <arcslip/scene/study_type.hpp>
@@ -119,57 +119,17 @@ Node parts_node(const std::vector<Part>& parts, const Scene& scene, bool with_ty
   return {std::move(list)};
 }
 
-void add_bar(const Bar& bar, double highest_frequency, Node::Object& structure) {
-  Node::Object keys{{"elements", node(bar.elements)},
-                    {"length", node(bar.length)},
-                    {"young", node(bar.young)},
-                    {"density", node(bar.density)},
-                    {"area", node(bar.area)}};
-  if (bar.bends) keys.push_back({"inertia", node(bar.inertia)});
-  Node::List ends;
-  for (const BarEnd end : bar.ends) ends.push_back(node(word_of(bar_ends, end)));
-  keys.push_back({"ends", {std::move(ends)}});
-  Node::Object points;
-  for (const auto& [name, place] : bar.points) points.push_back({name, node(place)});
-  keys.push_back({"points", {std::move(points)}});
-  if (highest_frequency > 0) keys.push_back({"highest_frequency", node(highest_frequency)});
-  structure.push_back({bar.bends ? "beam" : "rod", {std::move(keys)}});
+// A section with keys of its own.
+template <class Values>
+Node section_node(const Values& values, const SettingsKeys& table, const Scene& scene) {
+  Node::Object object;
+  table.write(Settings::of(values), scene, object);
+  return {std::move(object)};
 }
 
-void add_matrices(const Matrices& matrices, Node::Object& structure) {
-  if (matrices.bar) return add_bar(*matrices.bar, matrices.highest_frequency, structure);
-  Node::Object files{{"mass", matrix_file_node(matrices.mass)},
-                     {"stiffness", matrix_file_node(matrices.stiffness)}};
-  // Without its path, as for the hash, a file still has a variable.
-  if (matrices.has_damping() || !matrices.damping.variable.empty())
-    files.push_back({"damping", matrix_file_node(matrices.damping)});
-  if (matrices.stiffness_speed_squared.file.text)
-    files.push_back({"stiffness_speed_squared", matrix_file_node(matrices.stiffness_speed_squared)});
-  if (matrices.gyroscopic.file.text) files.push_back({"gyroscopic", matrix_file_node(matrices.gyroscopic)});
-  if (matrices.circulatory.file.text)
-    files.push_back({"circulatory", matrix_file_node(matrices.circulatory)});
-  std::vector<std::string> unsymmetric;
-  if (matrices.unsymmetric_stiffness) unsymmetric.emplace_back("stiffness");
-  if (matrices.unsymmetric_damping) unsymmetric.emplace_back("damping");
-  if (!unsymmetric.empty()) files.push_back({"unsymmetric", node(unsymmetric)});
-  if (matrices.highest_frequency > 0)
-    files.push_back({"highest_frequency", node(matrices.highest_frequency)});
-  if (matrices.reduction != Reduction{}) {
-    Node::Object reduction;
-    reduction_keys().write(Settings::of(matrices.reduction), {}, reduction);
-    files.push_back({"reduction", {std::move(reduction)}});
-  }
-  if (!matrices.errors.empty()) {
-    Node::List errors;
-    for (const auto& [frequency, error] : matrices.errors)
-      errors.push_back(node(std::vector{frequency, error}));
-    files.push_back({"errors", {std::move(errors)}});
-  }
-  if (matrices.faces_file.text) files.push_back({"faces", node(matrices.faces_file.path)});
-  if (matrices.copies > 1) files.push_back({"copies", node(matrices.copies)});
-  if (!matrices.stiffness_factors.empty())
-    files.push_back({"stiffness_factors", node(matrices.stiffness_factors)});
-  structure.push_back({"matrices", {std::move(files)}});
+void add_matrices(const Matrices& matrices, const Scene& scene, Node::Object& structure) {
+  if (matrices.bar) return write_bar(matrices, scene, structure);
+  structure.push_back({"matrices", section_node(matrices, matrices_keys(), scene)});
   structure.push_back({"names", node(matrices.names.path)});
 }
 
@@ -189,17 +149,6 @@ Node constants_node(const std::vector<Constant>& constants) {
 Node labels_node(const Scene& scene) {
   Node::Object object;
   for (const auto& [axis, text] : scene.labels) object.push_back({axis, node(text)});
-  return {std::move(object)};
-}
-
-Node harmonics_node(const Harmonics& harmonics) {
-  Node::Object object;
-  if (harmonics.accuracy > 0) object.push_back({"accuracy", node(harmonics.accuracy)});
-  object.push_back({"order", node(harmonics.order)});
-  object.push_back({"period", node(harmonics.period)});
-  object.push_back({"friction", node(word_of(friction_methods, harmonics.friction))});
-  object.push_back({"samples", node(harmonics.samples)});
-  object.push_back({"kinks", node(word_of(kinks_words, harmonics.kinks))});
   return {std::move(object)};
 }
 
@@ -272,11 +221,8 @@ Node studies_node(const Scene& scene) {
 
 Node tree(const Scene& scene) {
   Node::Object structure;
-  if (scene.cyclic)
-    structure.push_back({"cyclic",
-                         {Node::Object{{"sectors", node(scene.cyclic->sectors)},
-                                       {"engine_order", node(scene.cyclic->engine_order)}}}});
-  if (scene.matrices) add_matrices(*scene.matrices, structure);
+  if (scene.cyclic) structure.push_back({"cyclic", section_node(*scene.cyclic, cyclic_keys(), scene)});
+  if (scene.matrices) add_matrices(*scene.matrices, scene, structure);
   const auto named = static_cast<std::ptrdiff_t>(scene.matrices ? scene.matrices->named() : 0);
   const std::vector<std::string> dofs(scene.dofs.begin() + named, scene.dofs.end());
   if (named == 0 || !dofs.empty()) structure.push_back({"dofs", node(dofs)});
@@ -297,7 +243,7 @@ Node tree(const Scene& scene) {
   if (!scene.patches.empty()) all.push_back({"patches", parts_node(scene.patches, scene)});
   all.push_back({"excitation", parts_node(scene.excitation, scene, true)});
   if (!scene.labels.empty()) all.push_back({"labels", labels_node(scene)});
-  all.push_back({"harmonics", harmonics_node(scene.harmonics)});
+  all.push_back({"harmonics", section_node(scene.harmonics, harmonics_keys(), scene)});
   all.push_back({"response", responses_node(scene)});
   all.push_back({"studies", studies_node(scene)});
   return {std::move(all)};

@@ -1,6 +1,6 @@
 #include <arcslip/scene/reduction.hpp>
 
-#include <arcslip/scene/keys/study_keys.hpp>
+#include <arcslip/scene/keys/section_keys.hpp>
 
 #include <array>
 #include <limits>
@@ -18,18 +18,6 @@ constexpr std::array<file::Word<ReductionMethod>, 3> reduction_methods = {
      {"rubin", ReductionMethod::rubin}}};
 constexpr Field dynamic_accuracy{
     .name = "accuracy", .unit = "-", .lower = 1e-11, .upper = 1e-3, .help = "of the dynamic stiffness"};
-
-file::KeyGroup<Reduction> cutoff_key() {
-  return {{{"cutoff", KeyType::frequency, "frequency", "above 0", "", false,
-            "the modes up to this frequency, by default up to four times the `highest_frequency`"}},
-          [](const file::Reading& reading, Reduction& of) {
-            of.cutoff =
-                file::read_number(reading.keys.find("cutoff"), reading.frequency, reading.faults).value_or(0);
-          },
-          [](const Reduction& of, const Scene&, file::Node::Object& to) {
-            if (of.cutoff > 0) to.push_back({"cutoff", file::node(of.cutoff)});
-          }};
-}
 
 // Keys that the method does not have, and two that say the same.
 void check_keys_of_method(const file::Reading& reading, Reduction& of) {
@@ -62,14 +50,14 @@ file::KeysOf<Reduction> keys_of_reduction() {
   };
   of_accuracy.numbers = {};
   all.add(std::move(of_accuracy));
-  auto modes = file::whole("modes", &Reduction::modes, 0, most_modes,
-                           "of the other two methods: how many, with those of motions as a rigid body");
-  modes.keys.front().otherwise.clear();
-  modes.write = [](const Reduction& of, const Scene&, file::Node::Object& to) {
-    if (of.modes >= 0) to.push_back({"modes", file::node(of.modes)});
-  };
-  all.add(std::move(modes));
-  all.add(cutoff_key());
+  all.add(file::optional(
+      &Reduction::modes,
+      file::whole("modes", &Reduction::modes, 0, most_modes,
+                  "of the other two methods: how many, with those of motions as a rigid body")));
+  all.add(file::within(&Reduction::cutoff,
+                       file::optional_frequency("cutoff",
+                                                "the modes up to this frequency, by default up to four "
+                                                "times the `highest_frequency`")));
   all.check(check_keys_of_method);
   return all;
 }

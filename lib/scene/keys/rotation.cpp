@@ -1,4 +1,4 @@
-#include <arcslip/scene/keys/study_keys.hpp>
+#include <arcslip/scene/keys/section_keys.hpp>
 #include <arcslip/scene/rotation.hpp>
 
 namespace arcslip::scene {
@@ -12,23 +12,15 @@ constexpr Field highest_speed{
 constexpr Field engine_order{
     .name = "engine_order", .unit = "-", .lower = 0, .upper = infinity, .lower_open = true};
 
-// A number above 0, or none.
-file::KeyGroup<Rotation> optional_number(double Rotation::*value, const Field& field, std::string help) {
-  auto group = file::number(value, field, std::move(help));
-  group.keys.front().otherwise.clear();
-  group.write = [value, name = std::string(field.name)](const Rotation& of, const Scene&,
-                                                        file::Node::Object& to) {
-    if (of.*value > 0) to.push_back({name, file::node(of.*value)});
-  };
-  return group;
-}
-
 file::KeysOf<Rotation> keys() {
   file::KeysOf<Rotation> all;
-  all.add(optional_number(&Rotation::highest_speed, highest_speed,
-                          "up to which the structure is reduced: the upper bound of the speed"));
-  all.add(optional_number(&Rotation::engine_order, engine_order,
-                          "in place of a speed: excitation frequency over the speed of rotation"));
+  all.add(file::optional(&Rotation::highest_speed,
+                         file::number(&Rotation::highest_speed, highest_speed,
+                                      "up to which the structure is reduced: the upper bound of the speed")));
+  all.add(
+      file::optional(&Rotation::engine_order,
+                     file::number(&Rotation::engine_order, engine_order,
+                                  "in place of a speed: excitation frequency over the speed of rotation")));
   all.check([](const file::Reading&, Rotation& rotation) {
     if (rotation.engine_order > 0) return;
     rotation.fields = {speed};

@@ -8,6 +8,7 @@
 #include <arcslip/optimize/studies.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/scene/format/json_schema.hpp>
+#include <arcslip/scene/keys/section_keys.hpp>
 #include <arcslip/scene/study_type.hpp>
 #include <arcslip/studies/catalogue.hpp>
 
@@ -123,13 +124,17 @@ TEST_CASE("the documentation of scenes has a row for every key of every kind of 
   }
 }
 
-TEST_CASE("the documentation of scenes has a row for every key of a reduction") {
+TEST_CASE("the documentation of scenes has a row for every key of a section with a table") {
   std::ifstream file(source_folder() + "/docs/scene.md");
   std::stringstream text;
   text << file.rdbuf();
-  const std::string wanted = key_rows(scene::reduction_keys().keys());
-  INFO("the table of reductions is to be:\n" << wanted);
-  CHECK(text.str().find(wanted) != std::string::npos);
+  for (const scene::SettingsKeys* table :
+       {&scene::reduction_keys(), &scene::harmonics_keys(), &scene::matrices_keys(), &scene::cyclic_keys(),
+        &scene::bar_keys(true)}) {
+    const std::string wanted = key_rows(table->keys());
+    INFO("the table is to be:\n" << wanted);
+    CHECK(text.str().find(wanted) != std::string::npos);
+  }
 }
 
 TEST_CASE("the documentation of scenes has a row for every field and option of every part") {
