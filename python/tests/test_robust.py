@@ -54,9 +54,9 @@ def test_callback_may_use_the_scene_and_drop_it(oscillator: dict[str, Any]) -> N
 
 def test_extension_refuses_what_is_not_there(scene: arcslip.Scene) -> None:
     core = scene._data
-    results, _, _ = _core.run(core, [0], False, 1, None)
+    results, _, _ = _core.run(core, [0], False, None, 1, None)
     for call in [
-        lambda: _core.run(core, [1], False, 1, None),
+        lambda: _core.run(core, [1], False, None, 1, None),
         lambda: results.facts(5),
         lambda: results.column(0, 9, 0),
         lambda: results.column(0, 0, 999),
