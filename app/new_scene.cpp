@@ -24,7 +24,7 @@ constexpr int digits_kept = 4;                       // of numbers that follow f
 constexpr int digits_of_window = 3;                  // over the natural frequency
 constexpr double least_load = 0.05, most_load = 20;  // bounds of a normal load, over that of balance
 constexpr double levels[] = {0.1, 0.3, 1, 3, 10};    // of a study for each of them
-constexpr double smallest_motion = 1e-2, largest_motion = 10;  // of modes, over that where friction begins
+constexpr double smallest_motion = 1e-2;  // of modes, over that where friction begins
 constexpr double first_root_of_cantilever = 1.8751040687;      // of cos x cosh x = -1
 constexpr double highest_over_first = 40;  // of a beam: its reduction, over the first mode
 constexpr double circle = 2 * std::numbers::pi;
