@@ -15,8 +15,9 @@
 namespace arcslip::model {
 namespace {
 
-constexpr double rounding = 1e-9;   // a negative entry of the diagonal, relative to its row
-constexpr int largest_whole = 500;  // rows of matrices without a highest frequency
+constexpr double rounding = 1e-9;          // a negative entry of the diagonal, relative to its row
+constexpr double finest_accuracy = 1e-11;  // of what is reduced again where it is read
+constexpr int largest_whole = 500;         // rows of matrices without a highest frequency
 
 // A comment, then the entries other than 0; of a symmetric and of a skew-symmetric matrix the lower triangle.
 std::string matrix_market(const Eigen::MatrixXd& A, MatrixForm form, const std::string& comment) {
@@ -131,7 +132,10 @@ class ReducedFiles {
     to.names = add("names.csv", names);
     to.bar.reset();
     to.reduction = {};
-    if (model_.unnamed_to <= largest_whole) to.highest_frequency = 0;
+    if (model_.unnamed_to <= largest_whole)
+      to.highest_frequency = 0;
+    else
+      to.reduction.accuracy = finest_accuracy;
   }
 
   void add_shapes(std::vector<scene::Part>& excitation) {

@@ -127,6 +127,29 @@ TEST_CASE("a reduced structure that floats, and a beam, are written and read aga
   }
 }
 
+TEST_CASE("a reduced structure that is reduced again where it is read has the responses of the scene") {
+  constexpr int points = 510;
+  std::string places, masses;
+  for (int i = 1; i <= points; ++i) {
+    const std::string name = "p" + std::to_string(i), separator = i < points ? ", " : "";
+    places += '"' + name + "\": " + std::to_string(i) + separator;
+    masses += R"({"name": "m)" + name + R"(", "at": ")" + name + R"(", "value": 0.01})" + separator;
+  }
+  const Folder folder;
+  const scene::Scene rod =
+      scenes::parse(R"({"format": "arcslip-scene-1", "frequency_unit": "rad/s", "structure": {
+    "rod": {"elements": 600, "length": 600, "young": 2e11, "density": 7800, "area": 5,
+             "points": {)" +
+                    places + R"(}, "highest_frequency": 5000}, "masses": [)" + masses + R"(]},
+    "excitation": [{"name": "f", "at": "p510", "cosine": 1}], "response": {"at": "p400"},
+    "harmonics": {"order": 1}, "studies": [{"kind": "frf", "from": 2, "to": 20}]})");
+  const scene::Scene again = written(rod, folder);
+  CHECK(again.matrices->size() > 500);
+  CHECK(again.matrices->reduction.accuracy == 1e-11);
+  CHECK(scenes::response_at(again, 3).amplitude ==
+        Approx(scenes::response_at(rod, 3).amplitude).epsilon(1e-10));
+}
+
 TEST_CASE("what has no reduced files is reported") {
   const Folder source = rotor_files(true);
   const auto refused = [&](const scene::Scene& s) -> std::string {
