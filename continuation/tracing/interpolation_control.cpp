@@ -24,7 +24,7 @@ constexpr double middle_of_cubic[] = {0.5}, thirds_of_cubic[] = {1.0 / 3, 2.0 / 
 constexpr double at_thirds = 64.0 / 81;  // of the error of a cubic in the middle: s^2 (1 - s)^2
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double across_many =
-    0.5;  // of the error allowed: kinks between these shares may take it twice as far
+    0.4;  // of the error allowed: kinks between these shares may take it twice as far
 constexpr double slope_safety = 10;  // of a slope's sign, at a kink
 
 // Whether a slope with values a and b at the ends of a step, and a deviation bend s (1 - s) from the straight
@@ -72,7 +72,7 @@ bool InterpolationControl::passes_by_curve(TrialStep& trial) {
     return false;
   }
   trial.curve_error = error;
-  return trial.passes_kinks = true;
+  return trial.passes_kinks = trial.worst_has_kinks = true;
 }
 
 // Whether the curve alone decides: not where a monitor asks for kinks.
@@ -134,9 +134,11 @@ void InterpolationControl::measure_curve(TrialStep& trial) {
   trial.worst_end = trial.end.arclength;
   trial.all_sections(s_.here, [&](const CurvePoint& from, const CurvePoint& to) {
     if (from.piece == to.piece || by_curve_alone()) {
-      const double error = curve_error(from, trial, to);
+      bool passes = false;
+      const double error = curve_error(from, trial, to, passes);
       if (error <= trial.curve_error) return true;
       trial.curve_error = error;
+      trial.worst_has_kinks = passes;
       trial.worst_begin = from.arclength;
       trial.worst_end = to.arclength;
     } else if (looks_for_kinks_) {
@@ -149,7 +151,8 @@ void InterpolationControl::measure_curve(TrialStep& trial) {
 // The error of one cubic: in its middle, where it is largest up to the variation of the fourth derivative.
 // Where kinks are passed, at two places, so that a piece that both ends hide is seen from a third of the step
 // on.
-double InterpolationControl::curve_error(const CurvePoint& from, TrialStep& trial, const CurvePoint& to) {
+double InterpolationControl::curve_error(const CurvePoint& from, TrialStep& trial, const CurvePoint& to,
+                                         bool& passes_kinks) {
   const double length = distance(main_, from.v, to.v);
   if (!(length > 0)) return 0;
   const double allowed = allowed_error(from, to);
@@ -170,7 +173,7 @@ double InterpolationControl::curve_error(const CurvePoint& from, TrialStep& tria
     trial.other_piece_between = true;
     return error;
   }
-  trial.passes_kinks = true;
+  passes_kinks = true;
   const double across = departure_across_kinks(from, to, unlimited) / (across_many * allowed);
   return std::isfinite(across) ? across : unknown_curve_error;
 }

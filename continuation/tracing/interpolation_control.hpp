@@ -49,7 +49,8 @@ class InterpolationControl {
   void begin_stretch(double length);
 
  private:
-  double curve_error(const CurvePoint& from, TrialStep& trial, const CurvePoint& to);
+  /// passes_kinks: whether there are any, and the curve alone decides.
+  double curve_error(const CurvePoint& from, TrialStep& trial, const CurvePoint& to, bool& passes_kinks);
   double allowed_error(const CurvePoint& from, const CurvePoint& to) const;
   bool passes_by_curve(TrialStep& trial);
   bool by_curve_alone() const;

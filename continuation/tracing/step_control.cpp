@@ -77,7 +77,7 @@ void StepControl::predict(Vector& v) const {
 double StepControl::error_growth(const TrialStep& trial) const {
   if (!(s_.curve_error > 0) || !trial.corners.empty()) return 1;
   const double length = (trial.end.arclength - s_.here.arclength) / s_.last_step;
-  const double order = trial.passes_kinks ? order_across_kinks : 4;
+  const double order = trial.worst_has_kinks ? order_across_kinks : 4;
   return std::max(1.0, trial.curve_error / (s_.curve_error * std::pow(length, order)));
 }
 
@@ -99,7 +99,7 @@ double StepControl::after(const TrialStep& trial) const {
 double StepControl::share_after_unresolved(const TrialStep& trial) const {
   if (!(trial.curve_error > 1)) return unresolved_rejection;
   const double before = trial.worst_begin - s_.here.arclength, within = trial.worst_end - trial.worst_begin;
-  const double factor = before > 0 || trial.passes_kinks
+  const double factor = before > 0 || trial.worst_has_kinks
                             ? curve_safety / std::pow(trial.curve_error, 1 / order_across_kinks)
                             : curve_factor(trial.curve_error);
   return std::clamp((before + factor * within) / trial.length, least_share, curve_safety);

@@ -27,6 +27,7 @@ struct TrialStep {
   std::optional<LocatedEvent> crossing;   // the branch point on the way
   double curve_error = 0;                 // of the cubics along it, relative to the tolerance: the largest
   double worst_begin = 0, worst_end = 0;  // arclength of the ends of its section
+  bool worst_has_kinks = false;           // which it passes by its curve alone
   bool other_piece_between = false;       // unnoticed by its sections
   bool passes_kinks = false;              // which are not looked for
   Vector basis;                           // TransverseSpace at its end, where the sign of the
@@ -39,7 +40,7 @@ struct TrialStep {
 
   void begin() {
     length = turn = curve_error = chord_error = 0;
-    is_looked_at = kink = other_piece_between = passes_kinks = has_basis = false;
+    is_looked_at = kink = other_piece_between = passes_kinks = worst_has_kinks = has_basis = false;
     corners.clear();
     crossing.reset();
   }
