@@ -8,7 +8,7 @@ import keyword
 import math
 import textwrap
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _core
@@ -82,9 +82,10 @@ def run(
 
 
 def _names(columns: Any) -> list[str]:
-    if isinstance(columns, str) or not all(isinstance(name, str) for name in columns):
+    names = list(columns) if isinstance(columns, Iterable) and not isinstance(columns, str) else []
+    if not names or not all(isinstance(name, str) for name in names):
         raise TypeError(f"found {columns!r} for 'columns', must be a list of names")
-    return list(columns)
+    return names
 
 
 def _combinations(for_each: Any) -> int:
@@ -230,7 +231,7 @@ def stubs(cls: type) -> str:
     """Return the text of a stub of a class with these methods."""
     lines = [
         "# Made from the keys of studies: python -P python/stubs > python/arcslip/methods.pyi",
-        "from collections.abc import Callable, Mapping, Sequence",
+        "from collections.abc import Callable, Iterable, Mapping, Sequence",
         "from typing import Any",
         "",
         "from numpy.typing import NDArray",
