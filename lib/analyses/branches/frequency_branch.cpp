@@ -218,10 +218,10 @@ continuation::Options frequency_options(const FrequencyWindow& window, Steps ste
   options.lower = window.lower;
   options.upper = window.upper;
   options.check_jacobian = false;
-  const double unlimited =
+  const double in_narrow_window =
       (steps == Steps::events ? step_between_events : step_in_narrow_window) * window.upper;
   options.step.largest_parameter =
-      std::clamp(unlimited, width / points_in_window, width / points_in_narrow_window);
+      std::clamp(in_narrow_window, width / points_in_window, width / points_in_narrow_window);
   if (steps != Steps::events) options.step.curve_tolerance = curve_tolerance;
   options.step.relative_parameter = largest_frequency_step;
   options.step.smallest =

@@ -89,10 +89,10 @@ inline constexpr double curve_tolerance_across_kinks = 1e-3;
 inline constexpr int most_located_contacts = 20;
 bool passes_kinks(const model::Model& model);
 
-/// Maximum step. curve: about 1/150 of the window, for plots, or 1e-4 of the highest frequency. events: for
-/// peaks and folds only, 1/200 of it. Neither is above 1/20 of the window, nor below 1/150. passage: as
-/// curve, without peaks, and with folds at kinks to the length of a step only, for where the branch passes a
-/// frequency.
+/// Maximum step. curve: for plots, the larger of 1/150 of the window and 1e-4 of the highest frequency;
+/// events: for peaks and folds only, with 1/200 of the frequency; both at most 1/20 of the window. Where
+/// kinks are passed, 2.5 times that. passage: as curve, without peaks, and with folds at kinks to the length
+/// of a step only, for where the branch passes a frequency.
 enum class Steps { curve, events, passage };
 
 /// Which events branches over the frequency have next to folds.

@@ -18,7 +18,8 @@ using Directions = std::vector<Eigen::VectorXd>;
 // move nearly alike: what they have outside of the span of those before.
 constexpr double shares_outside[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, independent};
 
-// A largest independent set, in the order of the directions, with an orthonormal basis of its span.
+// A largest independent set, in the order in which directions are added, with an orthonormal basis of its
+// span.
 class Independent {
  public:
   explicit Independent(int dofs) : chosen_(dofs, 0), orthonormal_(dofs, 0) {}
