@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -47,6 +48,15 @@ inline std::optional<int> row_in(std::string_view digits, int size) {
   const bool is_row =
       error == std::errc() && rest == digits.data() + digits.size() && row >= 1 && row <= size;
   return is_row ? std::optional(row) : std::nullopt;
+}
+
+/// A finite number, or nothing.
+inline std::optional<double> number_in(std::string_view text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || rest != end || !std::isfinite(value)) return {};
+  return value;
 }
 
 }  // namespace arcslip::scene::file

@@ -1,0 +1,30 @@
+#pragma once
+// The displacements of a contact of a patch, from the cells of its row.
+
+#include <arcslip/scene/keys/read_places.hpp>
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace arcslip::scene::file {
+
+/// The cells of a contact that is given by its nodes and axes; empty: the default.
+struct NodeCells {
+  std::string_view nodes, against, normal, tangent;
+};
+
+/// Takes what is wrong with a cell.
+using Report = std::function<void(const std::string&)>;
+
+/// That of a sum, "a", "-a", "a - b", "0.6*a.x + 0.8*a.z": terms between signs that stand alone.
+Direction displacement(std::string_view sum, const Dofs& dofs, const Report& report);
+
+/// Those of a law, by their names, along the axes of the contact: of the mean of its nodes less that of those
+/// against them. Empty where a cell is wrong.
+std::vector<Direction> displacements(const NodeCells& cells, std::span<const std::string> names,
+                                     const Dofs& dofs, const Report& report);
+
+}  // namespace arcslip::scene::file
