@@ -1,4 +1,4 @@
-#include "resolve.hpp"
+#include "verbs.hpp"
 
 #include "command_line/key_options.hpp"
 #include "interrupt.hpp"

@@ -1,4 +1,4 @@
-#include "studies_run.hpp"
+#include "verbs.hpp"
 
 #include "interrupt.hpp"
 #include "output/message.hpp"
@@ -143,12 +143,15 @@ std::vector<results::FigureData> compute_visibly(const scene::Scene& scene, cons
   return figures;
 }
 
-/// Makes a sink for the columns and events that the user asks for.
-decltype(File::sink) selected(decltype(File::sink) whole, const studies::Selection& selection) {
-  if (selection.empty()) return whole;
-  return [whole = std::move(whole), selection](std::ostream& out) {
-    return std::make_unique<studies::Selected>(whole(out), selection, true);
-  };
+/// CSV files of the columns and events that the user asks for.
+std::vector<File> selected_csv(const std::string& path, std::span<const results::Schema> schemas,
+                               const studies::Selection& selection) {
+  std::vector<File> files = csv_files(path, schemas);
+  for (File& file : files)
+    file.sink = [whole = std::move(file.sink), selection](std::ostream& out) {
+      return std::make_unique<studies::Selected>(whole(out), selection, true);
+    };
+  return files;
 }
 
 /// The files for the results of all studies together.
@@ -156,15 +159,14 @@ std::vector<File> common_files(const CommandOptions& options, std::span<const re
   std::vector<File> files;
   if (!options.json.empty()) files.push_back(json_file(options.json));
   if (!options.csv.empty()) {
-    std::vector<File> csv = csv_files(options.csv, schemas);
-    for (File& file : csv) file.sink = selected(std::move(file.sink), {options.columns, options.events});
+    std::vector<File> csv = selected_csv(options.csv, schemas, {options.columns, options.events});
     std::move(csv.begin(), csv.end(), std::back_inserter(files));
   }
   return files;
 }
 
 std::vector<File> own_files(const StudyFiles& files, const results::Schema& schema) {
-  std::vector<File> all = csv_files(files.path(".csv"), std::span(&schema, 1));
+  std::vector<File> all = selected_csv(files.path(".csv"), std::span(&schema, 1), {});
   all.insert(all.begin(), json_file(files.path(".json")));
   return all;
 }

@@ -7,9 +7,7 @@
 #include "output/results.hpp"
 #include "output/results_folder.hpp"
 #include "output/standard_output.hpp"
-#include "resolve.hpp"
 #include "result_file.hpp"
-#include "studies_run.hpp"
 
 #include <arcslip/analyses/branches/model_description.hpp>
 #include <arcslip/model/reduced_scene.hpp>

@@ -1,7 +1,6 @@
 #include <arcslip/optimize/studies.hpp>
 
 #include <arcslip/control/run_control.hpp>
-#include <arcslip/optimize/study/optimum_figures.hpp>
 #include <arcslip/optimize/study/optimum_results.hpp>
 #include <arcslip/optimize/study/optimum_study.hpp>
 #include <arcslip/optimize/study/read_settings.hpp>

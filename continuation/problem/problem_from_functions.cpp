@@ -2,7 +2,6 @@
 
 #include <arcslip/continuation/problem/difference.hpp>
 #include <arcslip/continuation/problem/linear_solver.hpp>
-#include <arcslip/continuation/problem/step_search.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +17,7 @@ namespace {
 
 constexpr double same_size = 0.1;         // of two lengths, shorter over longer: one step serves both
 constexpr double finest_at_zero = 1e-12;  // of the first step, where p = 0
+constexpr double step_ratio = 1.0 / 32;   // q, of one step to the next
 
 double central_step(double x, double scale) {
   return std::cbrt(2.2e-16) * std::max(std::abs(x), scale);
@@ -32,6 +32,61 @@ double finest_step(double p, const Parameter& parameter) {
 bool finite(const SparseMatrix& J) {
   return J.nonZeros() == 0 || Eigen::Map<const Vector>(J.valuePtr(), J.nonZeros()).allFinite();
 }
+
+// The derivative of a vector by differences with ever shorter steps, row by row.
+//
+// Chooses among central differences D_0, D_1, ... with steps in the ratio q. The change from one to
+// the next is the error of truncation of the former, which falls like q^2, or that of rounding of the
+// latter, which grows like 1/q. So each row takes the first D that the next one confirms, or else those
+// between which it changed least. A row that no two steps agree on is noise, which grows from D_0 on, or a
+// zero as of p^3 at 0, of which D falls: it takes the smallest D.
+class StepSearch {
+ public:
+  explicit StepSearch(Eigen::Index n)
+      : smallest_(n), before_(n), last_(n), best_(n), change_(n), settled_(n) {}
+
+  void begin(In D) {
+    smallest_ = before_ = last_ = best_ = D;
+    change_.setConstant(1);
+    settled_.setConstant(false);
+  }
+
+  // False: all rows are settled, a further D would change nothing.
+  bool add(In D) {
+    for (Eigen::Index i = 0; i < D.size(); ++i)
+      if (!settled_[i]) judge(i, D[i]);
+    before_ = last_;
+    last_ = D;
+    return !settled_.all();
+  }
+
+  const Vector& best() const { return best_; }
+
+ private:
+  static constexpr double confirmed = 1e-8;     // relative change
+  static constexpr double resolved = 0.1;       // more: steps longer than what F shows there, or noise
+  static constexpr double rounding_growth = 4;  // of the change: more is the growth of rounding alone
+  static constexpr double truncation_decay = 1 / (step_ratio * step_ratio);
+
+  void judge(Eigen::Index i, double now) {
+    const double size = std::max(std::abs(now), std::abs(last_[i]));
+    const double change = size > 0 ? std::abs(now - last_[i]) / size : 0;
+    if (std::abs(now) < std::abs(smallest_[i])) smallest_[i] = now;
+    const bool grows = change_[i] < resolved && !(change < change_[i]);
+    settled_[i] = grows || change <= confirmed;
+    const bool truncation = change_[i] < 1 && change * truncation_decay <= 2 * change_[i];
+    if (change <= confirmed)
+      best_[i] = truncation ? now : last_[i];
+    else if (grows)
+      best_[i] = change < rounding_growth * change_[i] ? last_[i] : before_[i];
+    else
+      best_[i] = change < resolved ? now : smallest_[i];
+    change_[i] = change;
+  }
+
+  Vector smallest_, before_, last_, best_, change_;
+  Eigen::Array<bool, Eigen::Dynamic, 1> settled_;
+};
 
 using Parameters = std::shared_ptr<const std::vector<Parameter>>;
 

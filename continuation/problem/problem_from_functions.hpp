@@ -13,7 +13,7 @@
 // next to a kink by one-sided ones. The step of unknown i is 6e-6 max(|u_i|, scale_i). That of a parameter is
 // 6e-6 max(|p|, scale), where the two are within a factor of 10 or F hardly bends over it. Where it may, as
 // at p = 1e-6 of a window to 1e6, or at p = 0, steps 1/32 as long follow, down to 6e-6 min(|p|, scale)
-// or 1e-12 of the first at p = 0, until two agree to 1e-8; each row of F takes its own (step_search.hpp). The
+// or 1e-12 of the first at p = 0, until two agree to 1e-8; each row of F takes its own. The
 // error of dF/dp is that of the rounding of F over the step, and 1e-8 relative, the cost 2 residuals a step.
 // The free parameter of a trace has by default the scale of its window.
 

@@ -2,12 +2,13 @@
 // Optimality certificate: first-order conditions, curvature and tolerance ranges of the optimum of V, the
 // amplitude or the criterion over several cases (load_cases.hpp).
 
-#include <arcslip/optimize/certificate/other_responses.hpp>
 #include <arcslip/optimize/evaluation/evaluation.hpp>
+#include <arcslip/optimize/peaks/peak_amplitude.hpp>
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace arcslip::optimize {
@@ -32,6 +33,13 @@ struct CertifiedPeak {
 /// Tolerances of the Karush-Kuhn-Tucker conditions: a search is complete only below both.
 inline constexpr double most_stationarity = 1e-5;
 inline constexpr double most_complementarity = 5e-7;
+
+/// A response on a branch other than that of the peaks.
+struct OtherResponse {
+  std::string found_by;             // "sweep downwards", "search at the ends", "deflation"
+  double omega = 0, amplitude = 0;  // rad/s, m
+  std::size_t in_case = 0;          // of Optimum::cases
+};
 
 struct Certificate {
   std::vector<double> gradient;  // dV/dp_k, of a highest peak where there are several, m over the unit of p_k

@@ -2,9 +2,7 @@
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/control/run_control.hpp>
-#include <arcslip/optimize/certificate/design_estimate.hpp>
 #include <arcslip/optimize/certificate/multipliers.hpp>
-#include <arcslip/optimize/certificate/tolerance_ranges.hpp>
 
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,16 @@
-#include <arcslip/optimize/certificate/design_estimate.hpp>
+// How far the harmonics left out may move the optimum, to first order. With more harmonics the active peaks
+// have the amplitudes A_i + dA_i (observables/truncation.hpp), and the conditions of the minimum
+//
+//   sum_i mu_i w_i d(A_i + dA_i)/dp = 0,   w_i (A_i + dA_i) = tau_g,   sum_i mu_i = 1 in each group g
+//
+// hold at p + dp with
+//
+//   sum_i mu_i w_i H_i dp + sum_i dmu_i w_i g_i = -sum_i mu_i w_i d(dA_i)/dp
+//   w_i g_i . dp - dtau_g = -w_i dA_i,   sum_i dmu_i = 0
+//
+// where g_i and H_i are the derivatives of A_i, and parameters at a bound stay there.
+
+#include <arcslip/optimize/certificate/certify.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/control/run_control.hpp>

@@ -1,4 +1,4 @@
-#include <arcslip/optimize/certificate/other_responses.hpp>
+#include <arcslip/optimize/certificate/certify.hpp>
 
 #include <arcslip/analyses/branches/frequency_branch.hpp>
 #include <arcslip/analyses/branches/other_solutions.hpp>

@@ -1,4 +1,9 @@
-#include <arcslip/optimize/certificate/tolerance_ranges.hpp>
+// The tolerance ranges of an optimum.
+//
+// Each end is where V is (1 + share) V_opt, or the limit or bound that comes first, by peaks that are
+// tracked. Where new responses at the end or on the way to it show that one was lost, by new responses alone.
+
+#include <arcslip/optimize/certificate/certify.hpp>
 
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/evaluation/design_space.hpp>

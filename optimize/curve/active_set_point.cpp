@@ -1,4 +1,4 @@
-#include <arcslip/optimize/curve/active_set_point.hpp>
+#include <arcslip/optimize/curve/active_set.hpp>
 
 #include <arcslip/continuation/linear/dense_algebra.hpp>
 #include <arcslip/optimize/certificate/multipliers.hpp>

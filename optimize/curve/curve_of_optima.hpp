@@ -5,7 +5,6 @@
 #include <arcslip/continuation/tracing/tracer.hpp>
 #include <arcslip/control/run_control.hpp>
 #include <arcslip/optimize/curve/active_set.hpp>
-#include <arcslip/optimize/curve/active_set_point.hpp>
 #include <arcslip/optimize/curve/optimum_curve.hpp>
 #include <arcslip/optimize/evaluation/design_space.hpp>
 #include <arcslip/optimize/evaluation/interruption.hpp>

@@ -2,7 +2,6 @@
 
 #include <arcslip/continuation/problem/text.hpp>
 #include <arcslip/observables/quantities.hpp>
-#include <arcslip/optimize/nlopt/epigraph.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +16,32 @@ namespace {
 constexpr int spare_peaks = 3;       // that may come up during a round, in each case
 constexpr double least_level = -60;  // of ln V/V_0
 constexpr double beyond_all = 60;    // ln V/V_0 where it is infinite
+
+// Epigraph form: min over y of sum_g max_k f_gk(y) as min sum_g exp(t_g) subject to ln f_gk(y) <= t_g, with
+// the levels t_g as additional variables at the end. One group: min t_1.
+//
+// Adds levels to the variables of a problem and to its start, and sets ln sum_g exp(t_g) as the objective.
+// visit: called with every y at which the objective is evaluated. The caller adds the constraints
+// ln f_gk(y) - t_g <= 0.
+void add_levels(NonlinearProgram& problem, std::vector<double>& start, std::span<const double> levels,
+                double lower, double upper, std::function<void(std::span<const double>)> visit) {
+  const std::size_t n = start.size();
+  start.insert(start.end(), levels.begin(), levels.end());
+  problem.lower.insert(problem.lower.end(), levels.size(), lower);
+  problem.upper.insert(problem.upper.end(), levels.size(), upper);
+  problem.objective = [n, visit = std::move(visit)](std::span<const double> x, std::span<double> g) {
+    visit(x.first(n));
+    const auto t = x.subspan(n);
+    const double most = *std::max_element(t.begin(), t.end());
+    double sum = 0;
+    for (const double each : t) sum += std::exp(each - most);
+    if (!g.empty()) {
+      std::fill(g.begin(), g.end(), 0.0);
+      for (std::size_t k = 0; k < t.size(); ++k) g[n + k] = std::exp(t[k] - most) / sum;
+    }
+    return most + std::log(sum);
+  };
+}
 
 }  // namespace
 

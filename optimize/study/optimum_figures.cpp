@@ -1,6 +1,6 @@
 // The figures of optima.
 
-#include <arcslip/optimize/study/optimum_figures.hpp>
+#include <arcslip/optimize/study/optimum_results.hpp>
 
 #include <arcslip/optimize/study/optimum_text.hpp>
 #include <arcslip/results/event_kinds.hpp>
@@ -83,7 +83,7 @@ struct CaseLines {
 };
 
 CaseLines lines_of_cases(const scene::Scene& scene, studies::BranchKind kind, const OptimumResult& result,
-                         std::vector<ResponseBranch> CaseCurves::*branches, bool weighted) {
+                         std::vector<ResponseBranch> CaseCurves::* branches, bool weighted) {
   const OptimumProblem& problem = result.problem;
   std::vector<std::vector<ResponseBranch>> all;  // of each line
   std::vector<studies::LineOfBranches> lines;

@@ -2,7 +2,6 @@
 
 #include <arcslip/analyses/branches/branch_recording.hpp>
 #include <arcslip/analyses/branches/stop_reason.hpp>
-#include <arcslip/analyses/curves/curve_estimates.hpp>
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/reasons.hpp>
 

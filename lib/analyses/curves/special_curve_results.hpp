@@ -1,5 +1,5 @@
 #pragma once
-// Results of a curve of special points: its parts, their stops, and their events.
+// Results of a curve of special points: its parts, their stops, their events and the estimates of these.
 
 #include <arcslip/analyses/branches/branch_description.hpp>
 #include <arcslip/analyses/branches/parameter_trace.hpp>
@@ -50,5 +50,9 @@ class CurveParts {
   scene::FrequencyUnit unit_;
   OverParameter way_;
 };
+
+/// Sets the estimates of an event of the curve at this arclength, where they are known: parameter_estimate,
+/// location_estimate, those of the amplitude and of the shares of stick.
+void estimate_change(const SpecialCurve& curve, double arclength, ResponseEvent& event);
 
 }  // namespace arcslip::observables

@@ -1,4 +1,4 @@
-#include <arcslip/scene/format/contact_displacements.hpp>
+#include <arcslip/scene/format/patch_rows.hpp>
 
 #include <arcslip/scene/keys/csv_text.hpp>
 

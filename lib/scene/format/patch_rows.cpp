@@ -1,6 +1,5 @@
 #include <arcslip/scene/format/patch_rows.hpp>
 
-#include <arcslip/scene/format/contact_displacements.hpp>
 #include <arcslip/scene/keys/csv_text.hpp>
 
 #include <algorithm>
@@ -22,6 +21,14 @@ constexpr Field gap_field{.name = "gap",
                           .unit = "m",
                           .lower = -std::numeric_limits<double>::infinity(),
                           .upper = std::numeric_limits<double>::infinity()};
+constexpr Field place_fields[] = {{.name = "x",
+                                   .unit = "m",
+                                   .lower = -std::numeric_limits<double>::infinity(),
+                                   .upper = std::numeric_limits<double>::infinity()},
+                                  {.name = "y",
+                                   .unit = "m",
+                                   .lower = -std::numeric_limits<double>::infinity(),
+                                   .upper = std::numeric_limits<double>::infinity()}};
 constexpr Field pressure_field{
     .name = "pressure", .unit = "Pa", .lower = 0, .upper = std::numeric_limits<double>::infinity()};
 
@@ -84,7 +91,7 @@ class PatchRows {
   bool header(const std::vector<std::string_view>& cells) {
     by_nodes_ = std::find(cells.begin(), cells.end(), "nodes") != cells.end();
     std::vector<std::string> known = columns_of_places();
-    known.insert(known.end(), {"area", "pressure", "name"});
+    known.insert(known.end(), {"area", "pressure", "name", "x", "y"});
     const auto of_law = patch_.law->fields(patch_.law_options);
     if (std::any_of(of_law.begin(), of_law.end(),
                     [](const Field& field) { return field.name == "normal_stiffness"; }))
@@ -101,6 +108,9 @@ class PatchRows {
     std::vector<std::string> needed =
         by_nodes_ ? std::vector<std::string>{"nodes", "normal"} : std::vector<std::string>(places_);
     needed.emplace_back("area");
+    for (const char* place : {"x", "y"})
+      if (std::find(cells.begin(), cells.end(), place) != cells.end())
+        needed.insert(needed.end(), {"x", "y"});
     for (const std::string& column : needed)
       if (std::find(columns_.begin(), columns_.end(), column) == columns_.end())
         fault("found no column " + shown(column) + ", which is required");
@@ -143,6 +153,7 @@ class PatchRows {
     row.area = number(cells, area_field);
     row.gap = number(cells, gap_field);
     row.pressure = number(cells, pressure_field);
+    if (cell(cells, "x")) row.place = {number(cells, place_fields[0]), number(cells, place_fields[1])};
     return row;
   }
 

@@ -1,4 +1,4 @@
-#include <arcslip/studies/presentation/contact_figures.hpp>
+#include <arcslip/studies/presentation/figure_parts.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,7 @@
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/results/event_kinds.hpp>
 #include <arcslip/results/text.hpp>
-#include <arcslip/studies/presentation/contact_figures.hpp>
-#include <arcslip/studies/presentation/motions_on_lines.hpp>
+#include <arcslip/studies/presentation/figure_parts.hpp>
 #include <arcslip/studies/presentation/units.hpp>
 
 #include <algorithm>
@@ -18,8 +17,8 @@ namespace {
 // A share of the period that an element or a patch spends in a state of contact.
 struct Share {
   std::string element, state;  // "stick", "separation"
-  std::vector<observables::ElementResponse> observables::ResponsePoint::*list;
-  double observables::ElementResponse::*percent;
+  std::vector<observables::ElementResponse> observables::ResponsePoint::* list;
+  double observables::ElementResponse::* percent;
 };
 
 // Those of all contacts, in the order of the points; of patches, the totals.

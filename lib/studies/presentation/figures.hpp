@@ -26,7 +26,7 @@ enum class BranchKind { responses, over_parameter, peaks, folds, bifurcations, m
 /// ("amplitude_over_stick"). For folds: the parameter over the frequency ("folds"); the same
 /// for bifurcations ("bifurcations"), with a line for each kind of them. For modes, whose columns
 /// are amplitude, frequency, damping ratio and stick: all over the amplitude. Of a single line, but folds,
-/// also what each contact does (contact_figures.hpp).
+/// also what each contact does (figure_parts.hpp).
 results::FigureData figures_of(const scene::Scene& scene, BranchKind kind,
                                std::span<const observables::ResponseBranch> branches);
 

@@ -1,4 +1,4 @@
-#include <arcslip/studies/presentation/motions_on_lines.hpp>
+#include <arcslip/studies/presentation/figure_parts.hpp>
 
 #include <arcslip/observables/histories.hpp>
 #include <arcslip/observables/quantities.hpp>

@@ -6,7 +6,7 @@
 #include "optimize/paper_optimum.hpp"
 #include "optimize/row.hpp"
 
-#include <arcslip/optimize/certificate/design_estimate.hpp>
+#include <arcslip/optimize/certificate/certify.hpp>
 #include <arcslip/optimize/search/optimum.hpp>
 
 #include <cmath>

@@ -5,7 +5,6 @@
 
 #include "optimize/curve/optimum_curves.hpp"
 
-#include <arcslip/optimize/study/optimum_figures.hpp>
 #include <arcslip/optimize/study/optimum_results.hpp>
 #include <arcslip/output/figures.hpp>
 #include <arcslip/results/csv_writer.hpp>

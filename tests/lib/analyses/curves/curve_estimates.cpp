@@ -5,9 +5,9 @@
 
 #include "lib/hbm/scenes.hpp"
 
-#include <arcslip/analyses/curves/curve_estimates.hpp>
 #include <arcslip/analyses/curves/curves.hpp>
 #include <arcslip/analyses/curves/special_curve.hpp>
+#include <arcslip/analyses/curves/special_curve_results.hpp>
 
 #include <algorithm>
 #include <cmath>
