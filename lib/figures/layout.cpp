@@ -29,6 +29,7 @@ constexpr std::size_t most_in_key = 24;          // lines that a key has room fo
 constexpr const char* main_colour = "#111111";   // of a main curve
 constexpr const char* other_colour = "#444444";  // in the key, of what lines of several colours have
 constexpr double band_opacity = 0.12;
+constexpr double rounding_of_ticks = 1e-9;
 
 /// Colours of the areas, in the order of area_kinds: alike where two kinds never meet.
 constexpr std::array<const char*, results::area_kinds.size()> area_colours = {
@@ -46,9 +47,9 @@ void set_axes(const FigureData& data, const FigureView& view, Figure& figure) {
   const bool has_minima = std::any_of(data.lines.begin(), data.lines.end(), has_minimum);
   // What a study goes over fills its axis; in a curve of folds it is the result that the frequency shows.
   figure.x = axis_of(data.columns[view.x], results::x_words(data, view), figure.are_areas || view.x == 0);
-  figure.y = figure.are_areas
+  figure.y = !view.areas.empty()
                  ? angle_axis(results::y_words(data, view))
-                 : axis_of(data.columns[view.y], results::y_words(data, view), false, has_minima);
+                 : axis_of(data.columns[view.y], results::y_words(data, view), figure.are_areas, has_minima);
 }
 
 void add_areas(const FigureView& view, Figure& figure) {
@@ -58,6 +59,33 @@ void add_areas(const FigureView& view, Figure& figure) {
     figure.fills.push_back({area.kind, area_colours.at(rank), 1, rank, area.strips});
     figure.key.push_back(
         {.of = FigureKeyEntry::Of::fill, .text = area.kind, .colour = area_colours.at(rank), .line = rank});
+  }
+}
+
+/// Tiles in classes of their values, from tick to tick of an axis of these.
+void add_tiles(const FigureView& view, const FigureStyle& style, Figure& figure) {
+  const results::FigureAxis axis = axis_of(view.value, view.value.words, true);
+  const auto label = [&](double value) { return results::to_digits(value, 6); };
+  const double step =
+      axis.ticks.size() > 1 ? axis.ticks[1].value - axis.ticks[0].value : axis.range.upper - axis.range.lower;
+  const double first = step * std::floor(axis.factor * view.value.range.lower / step + rounding_of_ticks);
+  const auto classes = static_cast<std::size_t>(
+      std::max(1.0, std::ceil((axis.factor * view.value.range.upper - first) / step - rounding_of_ticks)));
+  figure.classes = classes;
+  figure.key_title = {axis.label};
+  figure.note = view.note;
+  for (std::size_t k = 0; k < classes; ++k) {
+    const double from = first + static_cast<double>(k) * step;
+    results::FigureFill fill{
+        label(from) + " to " + label(from + step), line_colour(k, classes, style.is_grey), 1, k, {}};
+    for (const results::FigureTile& tile : view.tiles) {
+      const double place = std::floor((axis.factor * tile.value - first) / step);
+      if (std::clamp(place, 0.0, static_cast<double>(classes - 1)) == static_cast<double>(k))
+        fill.strips.push_back({{tile.left, tile.lower, tile.upper}, {tile.right, tile.lower, tile.upper}});
+    }
+    figure.key.push_back(
+        {.of = FigureKeyEntry::Of::fill, .text = fill.name, .colour = fill.colour, .line = k});
+    if (!fill.strips.empty()) figure.fills.push_back(std::move(fill));
   }
 }
 
@@ -181,8 +209,13 @@ std::vector<EventKind> mark_kinds(const FigureData& data) {
 }
 
 Figure figure_of(const FigureData& data, const FigureView& view, const FigureStyle& style) {
-  Figure figure{.name = view.name, .title = data.title, .are_areas = !view.areas.empty()};
+  Figure figure{
+      .name = view.name, .title = data.title, .are_areas = !view.areas.empty() || !view.tiles.empty()};
   set_axes(data, view, figure);
+  if (!view.tiles.empty()) {
+    add_tiles(view, style, figure);
+    return figure;
+  }
   if (figure.are_areas) {
     add_areas(view, figure);
     return figure;
@@ -199,8 +232,8 @@ Figure figure_of(const FigureData& data, const FigureView& view, const FigureSty
 
 std::vector<Figure> figures_of(const FigureData& data, const FigureStyle& style) {
   std::vector<Figure> all;
-  if (data.lines.empty()) return all;
-  for (const FigureView& view : data.figures) all.push_back(figure_of(data, view, style));
+  for (const FigureView& view : data.figures)
+    if (results::is_drawn(data, view)) all.push_back(figure_of(data, view, style));
   return all;
 }
 

@@ -1,12 +1,23 @@
 #pragma once
-// The totals of patches of contacts over a period.
+// The totals of patches of contacts over a period, and the extremes over their contacts.
 
 #include <arcslip/hbm/problem.hpp>
 #include <arcslip/results/response.hpp>
 
+#include <cmath>
+#include <cstddef>
 #include <span>
 
 namespace arcslip::observables {
+
+/// Adds a contact of this area to the extremes. Each: ElementResponse or ElementMotion.
+template <class Each>
+void add_contact(const Each& each, double area, ContactExtremes& to) {
+  to.stick_percent_min = std::fmin(to.stick_percent_min, each.stick_percent);
+  to.energy_per_area_max = std::fmax(to.energy_per_area_max, each.energy / area);
+  to.wear_depth_rate_max = std::fmax(to.wear_depth_rate_max, each.wear_rate / area);
+  if (each.has_normal_load) to.pressure_max = std::fmax(to.pressure_max, each.normal_load_max / area);
+}
 
 /// Energy and wear rate: the sums over the elements. Stick and open shares: their means weighted by the area.
 /// The normal load is not known by this. Each: ElementResponse or ElementMotion.
@@ -24,6 +35,7 @@ Each total(const model::Patch& patch, std::span<const Each> elements) {
     sum.stick_percent += patch.areas[i] * each.stick_percent;
     sum.open_percent += patch.areas[i] * each.open_percent;
     area += patch.areas[i];
+    add_contact(each, patch.areas[i], sum.extremes);
   }
   sum.stick_percent /= area;
   sum.open_percent /= area;

@@ -64,6 +64,11 @@ double element(const Element& element) {
   return element.*member;
 }
 
+template <double ContactExtremes::* member>
+double extreme(const Element& patch) {
+  return patch.extremes.*member;
+}
+
 template <std::vector<double> Element::* member>
 const std::vector<double>& angles(const Element& element) {
   return element.*member;
@@ -391,6 +396,16 @@ constexpr ElementQuantity of_patch[] = {
     {"energy", "J", "dissipated per period", element<&Element::energy>},
     {"wear_rate", "m³/s", "with a `wear_coefficient`: worn volume per second", element<&Element::wear_rate>,
      has_wear, is_part_with_wear},
+    {"stick_percent_min", "%", "the smallest share of the period in stick of a contact",
+     extreme<&ContactExtremes::stick_percent_min>},
+    {"pressure_max", "Pa",
+     "laws with a normal direction: the largest normal load of a contact over its area, in the period",
+     extreme<&ContactExtremes::pressure_max>, has_normal_load, is_part_with_normal_load},
+    {"energy_per_area_max", "J/m²", "the largest energy that a contact dissipates per period, over its area",
+     extreme<&ContactExtremes::energy_per_area_max>},
+    {"wear_depth_rate_max", "m/s",
+     "with a `wear_coefficient`: the largest worn volume of a contact per second, over its area",
+     extreme<&ContactExtremes::wear_depth_rate_max>, has_wear, is_part_with_wear},
 };
 
 constexpr Quantity<NamedResponse> of_named_response[] = {

@@ -39,8 +39,8 @@ bool is_whole(const std::string& path, std::string_view ending) {
 /// The names of the images of each figure, without extension: NAME_FIGURE, shortened to a valid file name.
 std::vector<std::string> images_of(const FigureData& data, const std::string& name) {
   std::vector<std::string> names;
-  if (data.lines.empty()) return names;
   for (const results::FigureView& figure : data.figures) {
+    if (!results::is_drawn(data, figure)) continue;
     std::string own = name + "_" + file_name(figure.name);
     if (std::find(names.begin(), names.end(), own) != names.end())  // differs only in what it cannot hold
       own += "_" + std::to_string(names.size());

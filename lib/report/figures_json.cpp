@@ -12,7 +12,6 @@
 namespace arcslip::report {
 namespace {
 
-using results::FigureArea;
 using results::FigureData;
 using results::FigureLine;
 using results::FigureMark;
@@ -166,12 +165,20 @@ std::string line_json(const FigureLine& line, const std::vector<int>& digits_of,
          "}";
 }
 
-std::string area_json(const FigureArea& area) {
-  return "{\"kind\":" + json_quoted(area.kind) + ",\"strips\":" +
+std::string area_json(const results::Figure& figure, const results::FigureFill& area) {
+  return "{\"kind\":" + json_quoted(area.name) + ",\"class\":" + json_quoted(area_class(figure, area.line)) +
+         ",\"strips\":" +
          list_of(
              area.strips,
              [](const auto& strip) { return columns_of(strip, {area_digits, area_digits, area_digits}); }) +
          "}";
+}
+
+/// The areas of a figure, as it is drawn.
+std::string areas_json(const FigureData& data, const results::FigureView& view) {
+  if (view.areas.empty() && view.tiles.empty()) return "[]";
+  const results::Figure figure = figures::figure_of(data, view);
+  return list_of(figure.fills, [&](const auto& area) { return area_json(figure, area); });
 }
 
 std::string figure_json(const FigureData& data, const results::FigureView& figure) {
@@ -181,7 +188,8 @@ std::string figure_json(const FigureData& data, const results::FigureView& figur
   return "{\"x\":" + std::to_string(figure.x) + ",\"y\":" + std::to_string(figure.y) +
          ",\"xLabel\":" + json_quoted(results::with_unit(results::x_words(data, figure), x_unit)) +
          ",\"yLabel\":" + json_quoted(results::with_unit(results::y_words(data, figure), y_unit)) +
-         ",\"areas\":" + list_of(figure.areas, area_json) + "}";
+         ",\"caption\":" + json_quoted(results::caption(data, figure)) +
+         (figure.areas.empty() ? "" : ",\"turn\":true") + ",\"areas\":" + areas_json(data, figure) + "}";
 }
 
 std::string kind_json(const results::EventKind& kind) {

@@ -96,7 +96,8 @@ void write_figures(Html& html, std::size_t study, const std::vector<results::Fig
   std::size_t shown = 0, left_out = 0;
   html.open("div", {{"class", "figures"}});
   for (std::size_t d = 0; d < all.size(); ++d)
-    for (std::size_t f = 0; f < all[d].figures.size() && !all[d].lines.empty(); ++f) {
+    for (std::size_t f = 0; f < all[d].figures.size(); ++f) {
+      if (!results::is_drawn(all[d], all[d].figures[f])) continue;
       if (shown == most_figures) {
         ++left_out;
         continue;
@@ -107,8 +108,7 @@ void write_figures(Html& html, std::size_t study, const std::vector<results::Fig
                            {"data-study", std::to_string(study)},
                            {"data-data", std::to_string(d)},
                            {"data-figure", std::to_string(f)}});
-      html.element("figcaption",
-                   results::y_words(all[d], figure) + " over " + results::x_words(all[d], figure));
+      html.element("figcaption", results::caption(all[d], figure));
       write_plain_curve(html, all[d], figure);
       html.close();
     }

@@ -3,6 +3,7 @@
 
 #include <arcslip/report/contents.hpp>
 #include <arcslip/report/html.hpp>
+#include <arcslip/results/figure.hpp>
 #include <arcslip/results/figure_data.hpp>
 #include <arcslip/scene/scene.hpp>
 
@@ -61,6 +62,9 @@ Outline outline(results::Shape shape);
 
 /// The class of a line in a drawing, by which it has its colour.
 std::string line_class(std::size_t line, std::size_t lines);
+
+/// The class of an area in a drawing, by its rank: of a contact state, or of a class of values.
+std::string area_class(const results::Figure& figure, std::size_t rank);
 
 /// The same figure with fewer points: those whose absence moves no line by more than `tolerance` of its axes.
 results::FigureData thinned(const results::FigureData& data, double tolerance);

@@ -119,7 +119,7 @@ class Classes {
     return line_class(line, data_.lines.size()) + (data_.lines[line].is_main ? " main" : "");
   }
   std::string fill(std::size_t line, double opacity) const {
-    if (figure_.are_areas) return "area a" + std::to_string(line);
+    if (figure_.are_areas) return area_class(figure_, line);
     if (figure_.note.empty()) return "band " + curve(line);
     return opacity > 0.3 ? "band narrow c0" : "band c0";
   }
@@ -176,14 +176,20 @@ void write_key(Html& html, const Figure& figure, const Classes& classes) {
   html.open("div", {{"class", "key"}});
   std::string parameters;
   for (const std::string& name : figure.key_title) parameters += (parameters.empty() ? "" : ", ") + name;
-  if (!parameters.empty()) html.element("p", parameters + ":");
   if (!figure.note.empty()) html.element("p", figure.note + ".");
+  if (!parameters.empty()) html.element("p", parameters + ":");
   html.open("ul");
   for (const FigureKeyEntry& entry : figure.key) write_swatch(html, entry, figure, classes);
   html.close().close();
 }
 
 }  // namespace
+
+std::string area_class(const Figure& figure, std::size_t rank) {
+  if (figure.classes == 0) return "area a" + std::to_string(rank);
+  const std::size_t last = std::max<std::size_t>(figure.classes - 1, 1);
+  return "area tile s" + std::to_string(rank * (sequence_steps - 1) / last);
+}
 
 std::string line_class(std::size_t line, std::size_t lines) {
   if (lines <= categories) return "c" + std::to_string(line);
@@ -197,7 +203,7 @@ void write_plain_curve(Html& html, const FigureData& data, const FigureView& vie
   html.open("svg", {{"class", "plain"},
                     {"viewBox", "0 0 " + pixels(paper_width) + " " + pixels(paper_height)},
                     {"role", "img"},
-                    {"aria-label", figure.y.label + " over " + figure.x.label}});
+                    {"aria-label", results::caption(fewer, view)}});
   if (!figure.are_areas) write_axes(html, figure);
   write_fills(html, figure, classes);
   write_curves(html, figure, classes);

@@ -75,7 +75,7 @@ struct FigureText {
 struct FigureFill {
   std::string name, colour;
   double opacity = 1;
-  std::size_t line = 0;                       // of the data; of areas the rank of their kind
+  std::size_t line = 0;                       // of the data; of areas the rank of their kind or class
   std::vector<std::vector<Record>> strips{};  // records {x, lower, upper}
 };
 
@@ -84,7 +84,7 @@ struct FigureKeyEntry {
   enum class Of { curve, unstable, mark, fill };
   Of of;
   std::string text{}, colour{};
-  std::size_t line = 0;  // of curves; of areas the rank of their kind
+  std::size_t line = 0;  // of curves; of areas the rank of their kind or class
   EventKind kind{};      // of marks
   double opacity = 1;    // of fills
 };
@@ -95,7 +95,8 @@ struct Figure {
   std::string note{};  // what it shows in place of all curves; empty: it shows them
   FigureAxis x{}, y{};
   std::vector<FigureFill> fills{};
-  bool are_areas = false;  // the fills are contact states, which stand before the grid
+  bool are_areas = false;   // the fills are contact states or tiles, which stand before the grid
+  std::size_t classes = 0;  // of tiles, by their values; 0: there are none
   std::vector<FigureCurve> curves{};
   std::vector<FigureSymbol> symbols{};
   std::vector<FigureText> texts{};

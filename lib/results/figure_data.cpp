@@ -34,6 +34,14 @@ std::string y_words(const FigureData& data, const FigureView& view) {
   return view.y_words.empty() ? data.columns[view.y].words : view.y_words;
 }
 
+std::string caption(const FigureData& data, const FigureView& view) {
+  return view.tiles.empty() ? y_words(data, view) + " over " + x_words(data, view) : view.value.words;
+}
+
+bool is_drawn(const FigureData& data, const FigureView& view) {
+  return !data.lines.empty() || !view.tiles.empty();
+}
+
 std::string y_unit(const FigureData& data, const FigureView& view) {
   return view.areas.empty() ? data.columns[view.y].unit : "degrees";
 }

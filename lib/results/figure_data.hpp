@@ -84,12 +84,22 @@ struct FigureArea {
   std::vector<std::vector<Record>> strips;  // records {x, lower, upper}
 };
 
-/// One column over another, both counted from 0; or areas over column x and an angle, 0 to 360 degrees.
+/// A rectangle of the plane of two columns, with a value.
+struct FigureTile {
+  double left = 0, right = 0, lower = 0, upper = 0;
+  double value = 0;
+};
+
+/// One column over another, both counted from 0; or areas over column x and an angle, 0 to 360 degrees; or
+/// tiles over columns x and y.
 struct FigureView {
   std::string name;  // "amplitude"
   std::size_t x = 0, y = 1;
   std::string x_words{}, y_words{};  // "peak amplitude"; empty: those of the column
   std::vector<FigureArea> areas{};   // in place of the lines
+  std::vector<FigureTile> tiles{};   // in place of the lines
+  FigureColumn value{};              // of the tiles
+  std::string note{};                // what the tiles are of: "resonance peak at 73.5 Hz"
 };
 
 /// The data of figures with the same lines.
@@ -105,6 +115,12 @@ struct FigureData {
 /// The words of the axes of a figure: "peak amplitude".
 std::string x_words(const FigureData& data, const FigureView& view);
 std::string y_words(const FigureData& data, const FigureView& view);
+
+/// What stands over a figure: "amplitude over frequency", "largest pressure".
+std::string caption(const FigureData& data, const FigureView& view);
+
+/// Whether a figure shows anything.
+bool is_drawn(const FigureData& data, const FigureView& view);
 
 /// The unit of y, which areas have of their own.
 std::string y_unit(const FigureData& data, const FigureView& view);

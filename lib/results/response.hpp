@@ -29,6 +29,14 @@ struct ForceMaxima {
   double force = no_value, cosine = no_value, sine = no_value;
 };
 
+/// Extremes over the contacts of a patch; no_value if not applicable.
+struct ContactExtremes {
+  double stick_percent_min = no_value;    // share of the period in stick, 0 to 100
+  double pressure_max = no_value;         // Pa, of the normal load over the area
+  double energy_per_area_max = no_value;  // J/m^2, dissipated per period
+  double wear_depth_rate_max = no_value;  // m/s
+};
+
 /// Observables of one nonlinear element over a period; empty or zero if not applicable.
 struct ElementResponse {
   std::string name;
@@ -61,6 +69,7 @@ struct ElementResponse {
   double equivalent_stiffness = no_value, equivalent_damping = no_value;
 
   ForceMaxima maxima{};
+  ContactExtremes extremes{};  // of a patch
 };
 
 /// The equation of motion of the fundamental, harmonic n, along the motion and per unit displacement of the

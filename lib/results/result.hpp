@@ -28,9 +28,10 @@ enum class Type { number, whole, flag, text, value };
 struct Column {
   std::vector<std::string> path;  // nested keys: {"elements", "damper", "theta_0"}
   Type type = Type::number;
-  std::string unit{};  // "N/m"; "" if it has none
-  std::string help{};  // one line of Markdown
-  int spread = 0;      // of a list of pairs [re, im]: so many of them have columns of their own in CSV
+  std::string unit{};      // "N/m"; "" if it has none
+  std::string help{};      // one line of Markdown
+  int spread = 0;          // of a list of pairs [re, im]: so many of them have columns of their own in CSV
+  bool is_detail = false;  // CSV has it only where it is named
 };
 
 /// "elements.damper.theta_0"

@@ -84,6 +84,11 @@ class TableOf {
 
   const std::vector<Column>& columns() const { return columns_; }
 
+  /// The columns from this one on are details (Column::is_detail).
+  void set_details(std::size_t first) {
+    for (std::size_t c = first; c < columns_.size(); ++c) columns_[c].is_detail = true;
+  }
+
   Rows rows(Items items) const {
     Rows rows{items.size(), {}};
     for (const auto& fill : fill_) rows.columns.push_back(fill(items));

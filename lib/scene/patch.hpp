@@ -11,7 +11,9 @@
 #include <arcslip/scene/part_type.hpp>
 #include <arcslip/scene/scene.hpp>
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +23,8 @@ namespace arcslip::scene {
 struct PatchRow {
   std::string name;  // of its element: "root.1"
   std::vector<Direction> directions;
-  double area = 0, gap = 0, pressure = 0;  // m^2, m, Pa
+  double area = 0, gap = 0, pressure = 0;        // m^2, m, Pa
+  std::optional<std::array<double, 2>> place{};  // on the surface, m; only for figures
   friend bool operator==(const PatchRow&, const PatchRow&) = default;
 };
 

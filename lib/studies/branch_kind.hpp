@@ -6,6 +6,7 @@
 #include <arcslip/analyses/responses/parameter_response.hpp>
 #include <arcslip/observables/quantities.hpp>
 #include <arcslip/studies/presentation/branches.hpp>
+#include <arcslip/studies/presentation/figure_parts.hpp>
 #include <arcslip/studies/presentation/figures.hpp>
 #include <arcslip/studies/study_kind.hpp>
 
@@ -77,7 +78,12 @@ std::unique_ptr<Computation> computed_branches(const scene::Scene& scene, const 
       branches(scene, asked_for(drawn, scene, range), options),
       [range = as_read(range, options, scene.harmonics.accuracy > 0)](
           const Case& at, const control::Control& control) { return follow(at.scene, range, control); },
-      [&scene](Branches branches) { return std::vector{figures_of(scene, drawn, branches)}; });
+      [&scene](Branches branches) {
+        std::vector<results::FigureData> figures{figures_of(scene, drawn, branches)};
+        if (drawn == BranchKind::responses)
+          for (results::FigureData& map : patch_maps(scene, branches)) figures.push_back(std::move(map));
+        return figures;
+      });
   if (has_harmonics(range))
     of->truncation_of_items = [](Branches branches) {
       return truncation_of(branches, drawn != BranchKind::modes);

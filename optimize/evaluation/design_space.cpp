@@ -74,9 +74,9 @@ class ObservableSearch {
   PeakAmplitude::Observable of_patch(std::size_t k) {
     const model::NonlinearPart& first = model_.elements[model_.patches[k].first];
     for (const observables::ElementQuantity& each : observables::patch_quantities()) {
-      const bool is_total = each.path == "energy" || each.path == "stick_percent";
+      const bool always = each.path.starts_with("energy") || each.path.starts_with("stick_percent");
       const bool some =
-          is_total || (each.path == "wear_rate" ? has(first, each.path) : has_normal_load(first));
+          always || (each.path.starts_with("wear") ? has(first, "wear_rate") : has_normal_load(first));
       if (some && is_wanted(model_.patches[k].name + "." + std::string(each.path)))
         return [k, get = std::get<Number>(each.get)](const observables::ResponsePoint& point) {
           return get(point.patches[k]);

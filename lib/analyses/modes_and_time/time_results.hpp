@@ -30,6 +30,7 @@ struct ElementMotion {
   double open_percent = 0;                          // share of the time in separation
   double normal_load_max = 0, normal_load_min = 0;  // N; of a patch, of its total at the instants recorded
   double wear_rate = no_value;                      // m^3/s; no_value without a wear coefficient
+  ContactExtremes extremes{};                       // of a patch
 };
 
 /// What became of a transient that began next to a response of harmonic balance (perturbed_transient.hpp).

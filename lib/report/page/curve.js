@@ -59,12 +59,11 @@ function drawAxes(axes, x, y, columns) {
 }
 
 function addAreas(group, description, x, y) {
-  const kinds = ["stick", "slip", "slip+", "slip-", "open", "closed", "closed+", "closed-"];
   const shape = d3.area().x(i => i[0]).y0(i => i[1]).y1(i => i[2]);
   for (const area of description.areas) {
     const text = area.strips.map(([at, lower, upper]) =>
       shape(at.map((value, i) => [x(value), y(lower[i]), y(upper[i])]))).join("");
-    group.append("path").attr("class", "area a" + kinds.indexOf(area.kind)).attr("d", text)
+    group.append("path").attr("class", area.class).attr("d", text)
       .append("title").text(area.kind);
   }
 }
@@ -92,7 +91,7 @@ class Curve {
   constructor(figure, data, description, study, number) {
     Object.assign(this, {figure, data, description, study});
     this.columns = {x: data.columns[description.x], y: data.columns[description.y]};
-    if (description.areas.length > 0) this.columns.y = {label: description.yLabel, scale: "linear", lower: 0, upper: 360};
+    if (description.turn) this.columns.y = {label: description.yLabel, scale: "linear", lower: 0, upper: 360};
     const hasAreas = description.areas.length > 0;
     this.x0 = this.x = scaleOf(this.columns.x, hasAreas || description.x === 0, [paper.left, paper.right]);
     this.y0 = this.y = scaleOf(this.columns.y, hasAreas, [paper.bottom, paper.top]);
@@ -110,7 +109,7 @@ class Curve {
     figure.querySelector("svg.plain").remove();
     const svg = d3.select(figure).insert("svg", ".key").attr("class", "live")
       .attr("viewBox", `0 0 ${paper.width} ${paper.height}`).attr("tabindex", 0).attr("role", "application")
-      .attr("aria-label", description.yLabel + " over " + description.xLabel +
+      .attr("aria-label", description.caption +
         ". Arrow keys go along a curve and from curve to curve, Enter shows the motion there, plus and minus zoom, 0 shows all.");
     svg.append("clipPath").attr("id", "clip" + number).append("rect").attr("x", paper.left).attr("y", paper.top)
       .attr("width", paper.right - paper.left).attr("height", paper.bottom - paper.top);

@@ -62,7 +62,7 @@ void check_whole(const std::string& pointer, const Matrices& matrices, Faults& f
 
 struct MatrixKey {
   const char* name;
-  MatrixFile Matrices::*file;
+  MatrixFile Matrices::* file;
   bool required;
   Form form;  // unless the scene says that it is unsymmetric
   const char *unit, *help;
@@ -183,8 +183,8 @@ KeyGroup<Matrices> errors() {
           "errors", "", "a list of pairs, a frequency and the error of the dynamic stiffness up to it",
           "of matrices that a reduction made, as `arcslip reduce` writes them, `[[90, 2e-5], [1000, 0.03]]`, "
           "frequencies in the scene's unit",
-          R"({"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 2,
-                      "items": {"type": "number"}}})")},
+          R"({"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 2, "maxItems": 2,
+                      "items": {"type": "number", "minimum": 0}}})")},
       read_errors,
       [](const Matrices& of, const Scene&, Node::Object& to) {
         Node::List all;

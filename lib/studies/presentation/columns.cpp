@@ -87,7 +87,7 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
         observables::mode_quantities(), scene, scene, {}, {},
         [](const ResponsePoint& response) { return &response; }, table);
   const std::vector<scene::Part> elements = scene::all_elements(scene);
-  for (std::size_t e = 0; e < elements.size(); ++e)
+  const auto add_element = [&](std::size_t e) {
     if (elements[e].detailed)
       add_quantities(
           observables::element_quantities(), elements[e], scene, asked, {"elements", elements[e].name},
@@ -95,6 +95,11 @@ results::TableOf<ResponsePoint> responses(const scene::Scene& scene, const Asked
             return e < response.elements.size() ? &response.elements[e] : nullptr;
           },
           table);
+  };
+  for (std::size_t e = 0; e < scene.elements.size(); ++e) add_element(e);
+  const std::size_t of_patches = table.columns().size();
+  for (std::size_t e = scene.elements.size(); e < elements.size(); ++e) add_element(e);
+  table.set_details(of_patches);
   for (std::size_t k = 0; k < scene.patches.size(); ++k)
     add_quantities(
         observables::patch_quantities(), scene.patches[k], scene, asked, {"patches", scene.patches[k].name},

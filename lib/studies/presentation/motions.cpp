@@ -35,11 +35,11 @@ results::TableOf<MotionInstant> motion_history(const scene::Scene& scene) {
   add({"displacement"}, "m", "of the response", [](const auto& of) { return &of.displacement; });
   add({"velocity"}, "m/s", "of the response", [](const auto& of) { return &of.velocity; });
   const std::vector<scene::Part> elements = scene::all_elements(scene);
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (!elements[e].detailed) continue;
+  const auto add_element = [&](std::size_t e) {
+    if (!elements[e].detailed) return;
     const std::string& name = elements[e].name;
     const auto of_element = [&](const char* key, const char* unit, const char* help,
-                                std::vector<double> time::ElementTimeHistory::*member) {
+                                std::vector<double> time::ElementTimeHistory::* member) {
       add({"elements", name, key}, unit, help, [e, member](const time::TimeHistory& of) {
         return e < of.elements.size() ? &(of.elements[e].*member) : nullptr;
       });
@@ -52,8 +52,23 @@ results::TableOf<MotionInstant> motion_history(const scene::Scene& scene) {
     if (elements::law_of(elements[e])->has_normal_load())
       of_element("normal_load", "N", "contacts with a normal direction",
                  &time::ElementTimeHistory::normal_load);
-  }
+  };
+  for (std::size_t e = 0; e < scene.elements.size(); ++e) add_element(e);
+  const std::size_t of_patches = table.columns().size();
+  for (std::size_t e = scene.elements.size(); e < elements.size(); ++e) add_element(e);
+  table.set_details(of_patches);
   return table;
+}
+
+// Of a patch; of an element there are none.
+void add_extremes(const observables::ContactExtremes& extremes, results::Object& to) {
+  const auto add = [&](const char* key, double value, const char* unit) {
+    if (!std::isnan(value)) to.push_back({key, value, unit});
+  };
+  add("stick_percent_min", extremes.stick_percent_min, "%");
+  add("pressure_max", extremes.pressure_max, "Pa");
+  add("energy_per_area_max", extremes.energy_per_area_max, "J/m^2");
+  add("wear_depth_rate_max", extremes.wear_depth_rate_max, "m/s");
 }
 
 results::Object contacts(const std::vector<observables::ElementMotion>& list,
@@ -67,6 +82,7 @@ results::Object contacts(const std::vector<observables::ElementMotion>& list,
                            {"normal_load_max", element.normal_load_max, "N"},
                            {"normal_load_min", element.normal_load_min, "N"}});
     if (!std::isnan(element.wear_rate)) of.push_back({"wear_rate", element.wear_rate, "m^3/s"});
+    add_extremes(element.extremes, of);
     all.push_back({element.name, std::move(of)});
   }
   return all;

@@ -21,8 +21,8 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 }
 
 bool is_selected(const Selection& selection, const results::Column& column) {
-  return selection.columns.empty() || has(selection.columns, name_in_tables(column)) ||
-         has(selection.columns, results::name(column));
+  if (selection.columns.empty()) return !column.is_detail;
+  return has(selection.columns, name_in_tables(column)) || has(selection.columns, results::name(column));
 }
 
 /// In the order in which the user gave them.

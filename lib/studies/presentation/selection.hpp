@@ -26,7 +26,8 @@ void check_selection(const Selection& selection, std::span<const results::Schema
                      const std::string& prefix = {});
 
 /// Passes on to another sink what is selected: rows of events of these kinds, and of the columns those that
-/// are shown to people or, with of_tables, all that tables have.
+/// are shown to people or, with of_tables, all that tables have. Without names of columns tables have all but
+/// details.
 class Selected : public results::Sink {
  public:
   Selected(std::unique_ptr<results::Sink> to, Selection selection, bool of_tables);

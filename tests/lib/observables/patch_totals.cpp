@@ -117,6 +117,21 @@ TEST_CASE("the totals of a patch are those of its elements") {
   CHECK(stick > 1);
   CHECK(total.wear_rate == Approx(1e-13 * power(total, point.omega)).epsilon(1e-14));
 
+  double stick_min = 100, pressure = 0, per_area = 0, depth = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    stick_min = std::min(stick_min, point.elements[i].stick_percent);
+    pressure = std::max(pressure, point.elements[i].normal_load_max / areas[i]);
+    per_area = std::max(per_area, point.elements[i].energy / areas[i]);
+    depth = std::max(depth, point.elements[i].wear_rate / areas[i]);
+  }
+  CHECK(total.extremes.stick_percent_min == stick_min);
+  CHECK(total.extremes.stick_percent_min < total.stick_percent);
+  CHECK(total.extremes.pressure_max == pressure);
+  CHECK(total.extremes.pressure_max > 1.1 * total.normal_load_max / 4e-4);
+  CHECK(total.extremes.energy_per_area_max == per_area);
+  CHECK(total.extremes.wear_depth_rate_max == depth);
+  CHECK(depth == Approx(1e-13 * per_area * point.omega / (2 * std::numbers::pi)).epsilon(1e-12));
+
   // The normal load at many instants, from the histories of its forces.
   const double at_rest[] = {4, 5, 0};
   double most = 0, least = 1e9;
@@ -154,9 +169,16 @@ TEST_CASE("a march in time says what harmonics tell of contacts") {
       CHECK(std::abs(a.stick_percent - b.stick_percent) < 100 * tolerance);
       CHECK(std::abs(a.open_percent - b.open_percent) < 100 * tolerance);
       CHECK(a.normal_load_min < a.normal_load_max);
+      CHECK(std::isnan(a.extremes.pressure_max) == std::isnan(b.extremes.pressure_max));
     };
     for (std::size_t i = 0; i < 3; ++i) check(motion.elements[i], point.elements[i]);
     check(motion.patches[0], point.patches[0]);
+    const observables::ContactExtremes &over_contacts = motion.patches[0].extremes,
+                                       &expected = point.patches[0].extremes;
+    CHECK(std::abs(over_contacts.stick_percent_min - expected.stick_percent_min) < 100 * tolerance);
+    CHECK(over_contacts.pressure_max == Approx(expected.pressure_max).epsilon(tolerance));
+    CHECK(over_contacts.energy_per_area_max == Approx(expected.energy_per_area_max).epsilon(tolerance));
+    CHECK(over_contacts.wear_depth_rate_max == Approx(expected.wear_depth_rate_max).epsilon(tolerance));
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& load = motion.history.elements[i].normal_load;
       REQUIRE(load.size() == motion.history.time.size());
@@ -279,6 +301,6 @@ TEST_CASE("results have the totals of a patch, and its elements only with detail
     CHECK(motion["elements"].size() == (details ? 3 : 0));
     CHECK(motion["history"].contains("elements") == details);
     if (details) CHECK(motion["history"]["elements"]["pad.1"]["normal_load"].size() == 51);
-    CHECK(motion["patches"]["pad"].size() == 6);
+    CHECK(motion["patches"]["pad"].size() == 10);
   }
 }

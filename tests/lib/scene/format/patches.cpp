@@ -155,7 +155,13 @@ TEST_CASE("faults of a patch name the line of its file") {
       {"tangential,normal,area,presure\n",
        "line 1 of \"contacts/pad.csv\": found the column \"presure\", must be one of \"tangential\", "
        "\"normal\", "
-       "\"area\", \"pressure\", \"name\", \"gap\"; did you mean \"pressure\"?"},
+       "\"area\", \"pressure\", \"name\", \"x\", \"y\", \"gap\"; did you mean \"pressure\"?"},
+      {"tangential,normal,area,x\nt,n,1,0\n",
+       "line 1 of \"contacts/pad.csv\": found no column \"y\", which is required"},
+      {"tangential,normal,area,y\nt,n,1,0\n",
+       "line 1 of \"contacts/pad.csv\": found no column \"x\", which is required"},
+      {"tangential,normal,area,x,y\nt,n,1,0,\n",
+       "line 2 of \"contacts/pad.csv\": found the y \"\", must be a number"},
       {"tangential,normal,area,area\n", "line 1 of \"contacts/pad.csv\": found the column \"area\" again"},
       {"tangential,normal,area\nt,n\n",
        "line 2 of \"contacts/pad.csv\": found 2 values, must be 3 as in the header"},
