@@ -7,10 +7,9 @@
 namespace arcslip::continuation {
 namespace {
 
-constexpr double finest_kink = 1e-12;  // of the search interval, or of |u|: accuracy of the kink
-constexpr double least_slope = 0.1;    // of a tangent relative to the first one, to predict along it
-constexpr double farther = 8;          // factor after a prediction short of the end of the piece
-constexpr double farthest_cubic = 8;   // of the interval of its two points
+constexpr double least_slope = 0.1;   // of a tangent relative to the first one, to predict along it
+constexpr double farther = 8;         // factor after a prediction short of the end of the piece
+constexpr double farthest_cubic = 8;  // of the interval of its two points
 constexpr double first_margin = 1e-2;
 constexpr double chord_share = 1e-3;      // accuracy of the end of the piece on a chord
 constexpr double retry_share = 1.0 / 64;  // of the distance from which a correction failed, to try it anew
@@ -70,7 +69,7 @@ class Prediction {
 class KinkSearch {
  public:
   KinkSearch(Corrector& with, const CurvePoint& from, double length, CurvePoint& kink, Correction& last,
-             const Inside& is_inside)
+             const Inside& is_inside, double accuracy)
       : with_(with),
         from_(from),
         length_(length),
@@ -78,7 +77,7 @@ class KinkSearch {
         last_(last),
         is_inside_(is_inside),
         row_(with.border_row(from.tangent)),
-        finest_(finest_kink * std::max(length, with.norm_u(from.v))),
+        finest_(accuracy * std::max(length, with.norm_u(from.v))),
         upper_(length),
         ahead_(length),
         outside_at_(length),
@@ -261,8 +260,8 @@ class KinkSearch {
 }  // namespace
 
 bool locate_kink(Corrector& with, const CurvePoint& from, double length, CurvePoint& kink, Correction& last,
-                 const Inside& is_inside) {
-  return KinkSearch(with, from, length, kink, last, is_inside).run();
+                 const Inside& is_inside, double accuracy) {
+  return KinkSearch(with, from, length, kink, last, is_inside, accuracy).run();
 }
 
 }  // namespace arcslip::continuation

@@ -1,6 +1,7 @@
 #include <arcslip/continuation/problem/branch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace arcslip::continuation {
@@ -75,10 +76,15 @@ void hermite(const Vector& v0, const Vector& t0, const Vector& v1, const Vector&
 }
 
 Point interpolate(const Branch& branch, double arclength) {
+  constexpr double rounding = 1e-14;
   const auto& points = branch.points;
-  if (points.empty() || !(arclength >= points[0].arclength && arclength <= points.back().arclength) ||
+  const double first = points.empty() ? 0 : points[0].arclength,
+               last = points.empty() ? 0 : points.back().arclength;
+  const double beyond = rounding * std::max(std::abs(first), std::abs(last));
+  if (points.empty() || !(arclength >= first - beyond && arclength <= last + beyond) ||
       points[0].u.size() == 0)
     throw std::out_of_range("the branch has no points around arclength " + std::to_string(arclength));
+  arclength = std::clamp(arclength, first, last);
   const auto above = std::upper_bound(points.begin() + 1, points.end(), arclength,
                                       [](double s, const Point& x) { return s < x.arclength; });
   const Point& b = above == points.end() ? points.back() : *above;

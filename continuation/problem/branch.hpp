@@ -261,7 +261,8 @@ void hermite(const Vector& v0, const Vector& t0, const Vector& v1, const Vector&
              Vector& v);
 
 /// The point at an arclength within the branch by cubic Hermite interpolation between the neighbouring
-/// points, without correction. Throws std::out_of_range beyond the ends, or if points keep no unknowns.
+/// points, without correction. Throws std::out_of_range beyond the ends by more than rounding, or if points
+/// keep no unknowns.
 Point interpolate(const Branch& branch, double arclength);
 
 }  // namespace arcslip::continuation

@@ -17,6 +17,7 @@
 // depend on the steps before it: the probe is reset.
 
 #include <arcslip/continuation/correction/curve_point.hpp>
+#include <arcslip/continuation/correction/kink_location.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
 
 #include <memory>
@@ -51,13 +52,16 @@ class EventLocator {
 
   /// The kink at which the piece of `from` ends, within `length` along its tangent. towards: the direction
   /// beyond, if the signs of determinants are not known. Nothing if none is found.
-  std::optional<PassedKink> corner(const CurvePoint& from, double length, const Vector& towards);
+  std::optional<PassedKink> corner(const CurvePoint& from, double length, const Vector& towards,
+                                   double accuracy = finest_kink);
 
   /// Whether any monitor needs the kinks of a step.
   bool looks_for_kinks() const;
 
-  /// The kinks of a step that were found, in order from `from`; empty if no monitor needs them.
-  std::vector<PassedKink> corners(const CurvePoint& from, const CurvePoint& to);
+  /// The kinks of a step that were found, in order from `from`; empty if no monitor needs them. accuracy:
+  /// where no monitor changes its sign on the way; else they are found as exactly as they can be.
+  std::vector<PassedKink> corners(const CurvePoint& from, const CurvePoint& to,
+                                  double accuracy = finest_kink);
 
   /// The points of a smooth section at which the part of a quantity changes (Monitor::part), in order.
   std::vector<PassedKink> divisions(const CurvePoint& from, const CurvePoint& to);
@@ -99,9 +103,10 @@ class EventLocator {
   LocatedEvent nearer_end(std::size_t monitor, const CurvePoint& from, const CurvePoint& to) const;
   LocatedEvent kink_event(const Monitor& monitor, const PassedKink& corner) const;
   std::optional<PassedKink> division(const CurvePoint& from, double length);
-  bool locate_corner(const CurvePoint& from, double length, CurvePoint& kink);
+  std::vector<PassedKink> corners_within(const CurvePoint& from, const CurvePoint& to, double accuracy);
+  bool locate_corner(const CurvePoint& from, double length, double accuracy, CurvePoint& kink);
   void take_limits(const CurvePoint& from, double length, CurvePoint& kink);
-  bool pass(PassedKink& corner, double length, const Vector& towards);
+  bool pass(PassedKink& corner, double length, const Vector& towards, double accuracy);
   bool look_beyond(const CurvePoint& kink, double way, bool is_next_to_it, const Vector& towards,
                    CurvePoint& beyond);
   std::optional<Accepted> look_near(const CurvePoint& event);
@@ -113,6 +118,7 @@ class EventLocator {
 
   struct LocatedCorner {
     Vector from;
+    double accuracy;
     PassedKink corner;
     bool has_beyond;  // the branch was found beyond it
   };

@@ -1,6 +1,5 @@
 // Events other than zeros of functions: kinks, and crossings of two branches.
 
-#include <arcslip/continuation/correction/kink_location.hpp>
 #include <arcslip/continuation/events/monitor_calls.hpp>
 #include <arcslip/continuation/events/place_of_event.hpp>
 #include <arcslip/continuation/normal_forms/steady_form.hpp>
@@ -12,18 +11,20 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace arcslip::continuation {
 namespace {
 
-constexpr double guess_shares[] = {0.5, 0.1, 0.9};    // shares of a step: initial guesses of branch points
-constexpr int most_kinks = 16;                        // in one step
-constexpr double just_beyond[] = {1e-9, 1e-6, 1e-3};  // of a step: distances to the far side of a kink
-constexpr double just_before = 1e-9;                  // of a step: distance to the near side of a kink,
-constexpr double beyond_its_error = 1e-11;            // and of |u|
-constexpr double near_step = 0.1;                     // of a step: a branch point this close lies on it
-constexpr double beyond_step = 1e-4;                  // tolerance beyond its ends, for rounding
+constexpr double guess_shares[] = {0.5, 0.1, 0.9};  // shares of a step: initial guesses of branch points
+constexpr int most_kinks = 16;                      // in one step
+// Of a step: distances to the far side of a kink, and of one that only divides the curve.
+constexpr double just_beyond[] = {1e-9, 1e-6, 1e-3}, beyond_division[] = {1e-4, 1e-3, 1e-2};
+constexpr double just_before = 1e-9;        // of a step: distance to the near side of a kink,
+constexpr double beyond_its_error = 1e-11;  // and of |u|
+constexpr double near_step = 0.1;           // of a step: a branch point this close lies on it
+constexpr double beyond_step = 1e-4;        // tolerance beyond its ends, for rounding
 // Of a monitor's change over a step, and of the largest dp/ds for the type of a branch point: smaller values
 // count as zero.
 constexpr double zero_share = 1e-6;
@@ -172,17 +173,19 @@ bool EventLocator::look_beyond(const CurvePoint& kink, double way, bool is_next_
   return beyond.piece != kink.piece && (kink.orientation == 0 || beyond.orientation == kink.orientation);
 }
 
-std::optional<PassedKink> EventLocator::corner(const CurvePoint& from, double length, const Vector& towards) {
+std::optional<PassedKink> EventLocator::corner(const CurvePoint& from, double length, const Vector& towards,
+                                               double accuracy) {
   const auto known = std::find_if(located_.begin(), located_.end(), [&](const LocatedCorner& each) {
-    return each.from == from.v && each.corner.before.arclength - from.arclength < length;
+    return each.from == from.v && each.accuracy == accuracy &&
+           each.corner.before.arclength - from.arclength < length;
   });
   if (known != located_.end() && known->has_beyond && from.orientation != 0) return known->corner;
-  LocatedCorner found{from.v, {}, false};
+  LocatedCorner found{from.v, accuracy, {}, false};
   if (known != located_.end())
     found.corner.before = known->corner.before;
-  else if (!locate_corner(from, length, found.corner.before))
+  else if (!locate_corner(from, length, accuracy, found.corner.before))
     return std::nullopt;
-  found.has_beyond = pass(found.corner, length, towards);
+  found.has_beyond = pass(found.corner, length, towards, accuracy);
   if (known != located_.end())
     *known = found;
   else
@@ -190,9 +193,9 @@ std::optional<PassedKink> EventLocator::corner(const CurvePoint& from, double le
   return found.has_beyond ? std::optional(found.corner) : std::nullopt;
 }
 
-bool EventLocator::locate_corner(const CurvePoint& from, double length, CurvePoint& kink) {
+bool EventLocator::locate_corner(const CurvePoint& from, double length, double accuracy, CurvePoint& kink) {
   Correction correction;
-  if (!locate_kink(probe(), from, length, kink, correction)) return false;
+  if (!locate_kink(probe(), from, length, kink, correction, {}, accuracy)) return false;
   if (correction.converged)
     probe().move_to(kink.v);
   else if (!probe().linearize(kink.v, probe().border_row(from.tangent)))  // it is `from` itself
@@ -229,10 +232,10 @@ void EventLocator::take_limits(const CurvePoint& from, double length, CurvePoint
   }
 }
 
-bool EventLocator::pass(PassedKink& corner, double length, const Vector& towards) {
-  for (const double share : just_beyond) {
-    if (!look_beyond(corner.before, share * length, share == just_beyond[0], towards, corner.beyond))
-      continue;
+bool EventLocator::pass(PassedKink& corner, double length, const Vector& towards, double accuracy) {
+  const std::span<const double> shares = accuracy > finest_kink ? beyond_division : just_beyond;
+  for (const double share : shares) {
+    if (!look_beyond(corner.before, share * length, share == shares[0], towards, corner.beyond)) continue;
     evaluate(monitors_, probe(), corner.beyond);
     return true;
   }
@@ -245,7 +248,22 @@ bool EventLocator::looks_for_kinks() const {
   });
 }
 
-std::vector<PassedKink> EventLocator::corners(const CurvePoint& from, const CurvePoint& to) {
+std::vector<PassedKink> EventLocator::corners(const CurvePoint& from, const CurvePoint& to, double accuracy) {
+  if (accuracy > finest_kink && !changes_sign(from, to)) {
+    auto found = corners_within(from, to, accuracy);
+    const CurvePoint* side = &from;
+    bool any_sign = false;
+    for (const PassedKink& each : found) {
+      any_sign = any_sign || changes_sign(*side, each.before) || changes_sign(each.before, each.beyond);
+      side = &each.beyond;
+    }
+    if (!any_sign && !changes_sign(*side, to)) return found;
+  }
+  return corners_within(from, to, finest_kink);
+}
+
+std::vector<PassedKink> EventLocator::corners_within(const CurvePoint& from, const CurvePoint& to,
+                                                     double accuracy) {
   std::vector<PassedKink> found;
   if (to.piece == from.piece || !looks_for_kinks()) return found;
   const CurvePoint* side = &from;
@@ -253,7 +271,7 @@ std::vector<PassedKink> EventLocator::corners(const CurvePoint& from, const Curv
     const Vector way = to.v - side->v;
     const double length = std::sqrt(probe().dot(way, way));
     if (!(length > 0)) break;
-    auto next = corner(*side, length, way);
+    auto next = corner(*side, length, way, accuracy);
     if (!next) break;
     found.push_back(std::move(*next));
     side = &found.back().beyond;

@@ -20,8 +20,7 @@ constexpr double unknown_curve_error = 1 / 0.3;   // where the problem cannot be
 // the angle times the length of the step at one of these shares of it.
 constexpr double shares_across_kinks[] = {0.25, 0.5, 0.75};
 constexpr double least_departure = 1.0 / 20;
-constexpr double middle_of_cubic[] = {0.5}, thirds_of_cubic[] = {1.0 / 3, 2.0 / 3};
-constexpr double at_thirds = 64.0 / 81;  // of the error of a cubic in the middle: s^2 (1 - s)^2
+constexpr double middle_of_cubic[] = {0.5};
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double across_many =
     0.4;  // of the error allowed: kinks between these shares may take it twice as far
@@ -149,17 +148,16 @@ void InterpolationControl::measure_curve(TrialStep& trial) {
 }
 
 // The error of one cubic: in its middle, where it is largest up to the variation of the fourth derivative.
-// Where kinks are passed, at two places, so that a piece that both ends hide is seen from a third of the step
-// on.
+// Where kinks are passed, at three places, so that a piece that both ends hide is seen from a quarter of the
+// step on.
 double InterpolationControl::curve_error(const CurvePoint& from, TrialStep& trial, const CurvePoint& to,
                                          bool& passes_kinks) {
   const double length = distance(main_, from.v, to.v);
   if (!(length > 0)) return 0;
-  const double allowed = allowed_error(from, to);
   const bool passes = by_curve_alone();
   bool changes = from.piece != to.piece;
   double farthest = 0;
-  for (const double share : passes ? std::span<const double>(thirds_of_cubic) : middle_of_cubic) {
+  for (const double share : passes ? std::span<const double>(shares_across_kinks) : middle_of_cubic) {
     hermite(from.v, from.tangent, to.v, to.tangent, length, share, middle_);
     const double departure = distance_from_branch(main_, middle_);
     if (!std::isfinite(departure)) return unknown_curve_error;
@@ -167,15 +165,9 @@ double InterpolationControl::curve_error(const CurvePoint& from, TrialStep& tria
     std::uint64_t piece = 0;
     changes = changes || (main_.piece(piece) && piece != to.piece);
   }
-  const double error = farthest / (passes ? at_thirds * allowed : allowed);
-  if (!changes) return error;
-  if (!passes) {
-    trial.other_piece_between = true;
-    return error;
-  }
-  passes_kinks = true;
-  const double across = departure_across_kinks(from, to, unlimited) / (across_many * allowed);
-  return std::isfinite(across) ? across : unknown_curve_error;
+  passes_kinks = passes && changes;
+  trial.other_piece_between = trial.other_piece_between || (changes && !passes);
+  return farthest / ((passes_kinks ? across_many : 1) * allowed_error(from, to));
 }
 
 // In the middle of the cubic. Infinite without a tolerance.

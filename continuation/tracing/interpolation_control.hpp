@@ -3,6 +3,7 @@
 // Sections 8.4 and 8.5 of the theory. Not installed.
 
 #include <arcslip/continuation/correction/corrector.hpp>
+#include <arcslip/continuation/correction/kink_location.hpp>
 #include <arcslip/continuation/events/monitor.hpp>
 #include <arcslip/continuation/problem/options.hpp>
 #include <arcslip/continuation/tracing/state.hpp>
@@ -28,6 +29,9 @@ class InterpolationControl {
   /// branch from the cubic. With StepOptions::pass_kinks the curve alone decides where no slope has an event.
   /// Fills passes_kinks, and then curve_error, above 1 where a shorter step may pass.
   bool passes_kinks(TrialStep& trial);
+
+  /// To which the kinks of a step are located that it may not pass.
+  double kink_accuracy() const { return by_curve_alone() ? kink_of_curve : finest_kink; }
 
   /// Fills curve_error, the largest error of the cubics along the smooth pieces relative to the tolerance,
   /// and other_piece_between.

@@ -13,11 +13,21 @@ constexpr double largest_extrapolation = 2.5;    // in last steps, for the cubic
 constexpr double unresolved_rejection = 0.5;     // of the step if the slopes do not determine a quantity
 constexpr double curve_safety = 0.9;             // of the step allowed by the curve's error
 constexpr double order_across_kinks = 1.5;       // of the curve's error
+constexpr double least_order = 0.5;              // of the curve's error, as rejections show it
 constexpr double least_share = 1e-2;             // of a rejected step, where its curve has a large error
 
 // Factor of the step for a curve error of `error` times the tolerance: the error is of fourth order.
 double curve_factor(double error) {
   return std::clamp(curve_safety / std::sqrt(std::sqrt(error)), shrinkage, growth);
+}
+
+// That by which the error has fallen since the rejection before. Where the branch turns at once just ahead it
+// does not fall.
+double observed_order(const TrialStep& trial) {
+  if (!(trial.refused_error > 1 && trial.refused_length > trial.length)) return 4;
+  const double order =
+      std::log(trial.refused_error / trial.curve_error) / std::log(trial.refused_length / trial.length);
+  return std::max(order, least_order);
 }
 
 }  // namespace
@@ -99,9 +109,10 @@ double StepControl::after(const TrialStep& trial) const {
 double StepControl::share_after_unresolved(const TrialStep& trial) const {
   if (!(trial.curve_error > 1)) return unresolved_rejection;
   const double before = trial.worst_begin - s_.here.arclength, within = trial.worst_end - trial.worst_begin;
-  const double factor = before > 0 || trial.worst_has_kinks
-                            ? curve_safety / std::pow(trial.curve_error, 1 / order_across_kinks)
-                            : curve_factor(trial.curve_error);
+  const double order =
+      std::min(before > 0 || trial.worst_has_kinks ? order_across_kinks : 4.0, observed_order(trial));
+  const double factor =
+      order < 4 ? curve_safety / std::pow(trial.curve_error, 1 / order) : curve_factor(trial.curve_error);
   return std::clamp((before + factor * within) / trial.length, least_share, curve_safety);
 }
 

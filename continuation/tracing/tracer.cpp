@@ -44,6 +44,7 @@ bool Tracer::Impl::step() try {
   if (s_.ended) return false;
   if (!s_.begun) return begin();
   events_.forget();
+  trial_.forget_refusal();
   while (may_try()) {
     switch (attempt()) {
       case Outcome::accepted:
@@ -55,6 +56,7 @@ bool Tracer::Impl::step() try {
       case Outcome::unresolved:
         count_rejection();
         s_.step *= control_.share_after_unresolved(trial_);
+        trial_.keep_refusal();
         break;
       case Outcome::rejected:
         count_rejection();
@@ -138,7 +140,8 @@ void Tracer::Impl::locate_corners() {
   CurvePoint& end = trial_.end;
   end.arclength = s_.here.arclength + trial_.length;
   evaluate(monitors_, main_, end);
-  if (!interpolation_.passes_kinks(trial_)) trial_.corners = events_.corners(s_.here, end);
+  if (!interpolation_.passes_kinks(trial_))
+    trial_.corners = events_.corners(s_.here, end, interpolation_.kink_accuracy());
   if (trial_.corners.empty()) return;
   const CurvePoint& last = trial_.corners.back().beyond;
   trial_.length = last.arclength - s_.here.arclength + distance(main_, last.v, end.v);

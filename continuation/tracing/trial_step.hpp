@@ -33,6 +33,8 @@ struct TrialStep {
   Vector basis;                           // TransverseSpace at its end, where the sign of the
   bool has_basis = false;                 // determinant is not known
   double chord_error = 0;                 // of the monitored quantities, relative to the tolerance
+  double refused_error = 0;               // curve_error of the rejection before, from the same point; 0: none
+  double refused_length = 0;              // its length
   Rejection rejection;                    // why it was rejected
   std::size_t unresolved = 0;             // the monitor of the unresolved quantity
   bool evaluated = true;                  // false: the reason is that the problem could not be evaluated
@@ -43,6 +45,12 @@ struct TrialStep {
     is_looked_at = kink = other_piece_between = passes_kinks = worst_has_kinks = has_basis = false;
     corners.clear();
     crossing.reset();
+  }
+
+  void forget_refusal() { refused_error = refused_length = 0; }
+  void keep_refusal() {
+    refused_error = curve_error;
+    refused_length = length;
   }
 
   /// Where the last of its smooth sections begins.

@@ -6,7 +6,7 @@
 namespace arcslip::observables {
 namespace {
 
-constexpr int widest_spacing = 8;
+constexpr int widest_spacing = 8, widest_flagged_spacing = 32;
 constexpr double widest_step = 0.005, widest_flagged_step = 0.02;  // of the parameter, relative
 constexpr double foreseen = 0.1, kept_up = 0.3;  // by the line, relative: the spacing doubles, remains
 constexpr double alike = 1.5;                    // neighbours, one over the other
@@ -42,7 +42,9 @@ void SpacedEstimates::take(double arclength, double parameter, const Solution& p
   const double step = next.arclength - last_.arclength;
   const double error = std::abs(last_.estimate + slope_ * step - next.estimate);
   const bool both_flagged = next.flagged && last_.flagged;
-  if (both_flagged || (error <= foreseen * next.estimate && next.flagged == last_.flagged))
+  if (both_flagged)
+    spacing_ = std::min(2 * spacing_, widest_flagged_spacing);
+  else if (error <= foreseen * next.estimate && next.flagged == last_.flagged)
     spacing_ = std::min(2 * spacing_, widest_spacing);
   else if (next.flagged != last_.flagged || !(error <= kept_up * next.estimate))
     spacing_ = 1;

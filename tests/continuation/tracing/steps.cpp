@@ -296,7 +296,7 @@ TEST_CASE("a piece that the branch enters and leaves within a step is seen by th
     REQUIRE(branch.stop.reason == StopReason::boundary);
     double worst = 0;
     for (int k = 0; k <= 2000; ++k) {
-      const Point at = interpolate(branch, branch.points.back().arclength * (k / 2000.0));
+      const Point at = interpolate(branch, branch.points.back().arclength * k / 2000);
       const double departure = std::abs(at.u[0] - u_of(at.parameter)) / std::hypot(1, slope(at.parameter));
       worst = std::max(worst, departure / u_of(at.parameter));
     }
@@ -320,6 +320,40 @@ TEST_CASE("kinks that a monitor asks for are located where others would be passe
   }
 }
 
+TEST_CASE(
+    "where kinks are passed one that turns the branch much is found as the curve needs it, a peak exactly") {
+  // u = 3 + f(p) (p - c), a wave aside: kinks with a slope of one sign, and with a maximum.
+  constexpr double c = 0.237;
+  for (const double beyond : {4.0, -4.0}) {
+    const auto u_of = [=](double p) { return 3 + 0.2 * std::sin(3 * p) + (p < c ? 1 : beyond) * (p - c); };
+    const auto slope = [=](double p) { return 0.6 * std::cos(3 * p) + (p < c ? 1 : beyond); };
+    const auto problem = graph(u_of, slope, [=](In, In p) { return p[0] < c ? 1 : 2; });
+    Options options = window(-0.4, 0.6);
+    options.step.curve_tolerance = 1e-3;
+    options.step.largest_parameter = 0.2;
+    options.step.pass_kinks = true;
+    const Branch branch = trace(problem, on(u_of, -0.4), options, {peak_of_u()});
+    REQUIRE(branch.stop.reason == StopReason::boundary);
+    const std::size_t peaks = beyond < 0 ? 1 : 0;
+    REQUIRE(branch.events.size() == peaks);
+    if (peaks > 0) {
+      CHECK(std::abs(branch.events[0].point.parameter - c) < 1e-11);
+      CHECK(branch.events[0].nonsmooth);
+    }
+    double worst = 0;
+    for (int k = 0; k <= 5000; ++k) {
+      const Point at = interpolate(branch, branch.points.back().arclength * k / 5000);
+      const double departure = std::abs(at.u[0] - u_of(at.parameter)) / std::hypot(1, slope(at.parameter));
+      worst = std::max(worst, departure / u_of(at.parameter));
+    }
+    options.step.pass_kinks = false;
+    const Branch exact = trace(problem, on(u_of, -0.4), options, {peak_of_u()});
+    CAPTURE(beyond, worst, branch.counts.factorizations, exact.counts.factorizations);
+    CHECK(worst < 1e-3);
+    if (peaks == 0) CHECK(branch.counts.factorizations < exact.counts.factorizations);
+  }
+}
+
 TEST_CASE("kinks are passed by the error of the curve alone: without a tolerance of it they are not") {
   Options options = window(-1, 4);
   options.step.pass_kinks = true;
@@ -328,6 +362,8 @@ TEST_CASE("kinks are passed by the error of the curve alone: without a tolerance
 
 TEST_CASE("no point of a branch lies between its ends' arclengths and beyond") {
   const Branch branch = cusp_branch(window(-1, 1));
+  CHECK(interpolate(branch, branch.points.back().arclength * (1 + 1e-15)).parameter ==
+        branch.points.back().parameter);
   CHECK_THROWS_AS(interpolate(branch, -1e-3), std::out_of_range);
   CHECK_THROWS_AS(interpolate(branch, branch.points.back().arclength + 1e-3), std::out_of_range);
   const Point& middle = branch.points[branch.points.size() / 2];

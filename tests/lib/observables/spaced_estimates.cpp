@@ -97,23 +97,29 @@ TEST_CASE("points between estimates that differ by more than half have the large
 
 TEST_CASE("flagged estimates are computed further apart") {
   const auto flagged = [](int s) { return s % 3 == 0 ? 1.0 : 100; };
-  observables::SpacedEstimates spaced;
-  std::vector<ResponsePoint> points;
-  int computed = 0;
-  for (int s = 0; s < 40; ++s) {
-    ResponsePoint point;
-    if (spaced.is_due(s, 1000 + 2.0 * s)) {
-      point.truncation_estimate = flagged(s);
-      point.truncation_flagged = true;
-      spaced.take(s, 1000 + 2.0 * s, point, points);
-      ++computed;
-    } else {
-      spaced.pass(s, point);
+  // At 2 % of the parameter, 32 points at most.
+  for (const auto& [step, most] : {std::pair{2.0, 40}, {0.01, 18}}) {
+    observables::SpacedEstimates spaced;
+    std::vector<ResponsePoint> points;
+    int computed = 0;
+    for (int s = 0; s < 400; ++s) {
+      const double parameter = 1000 + step * s;
+      ResponsePoint point;
+      if (spaced.is_due(s, parameter)) {
+        point.truncation_estimate = flagged(s);
+        point.truncation_flagged = true;
+        spaced.take(s, parameter, point, points);
+        ++computed;
+      } else {
+        spaced.pass(s, point);
+      }
+      points.push_back(point);
+      CHECK(points.back().truncation_flagged);
     }
-    points.push_back(point);
-    CHECK(points.back().truncation_flagged);
+    CAPTURE(step, computed);
+    CHECK(computed > 400 / 33);
+    CHECK(computed <= most);
   }
-  CHECK(computed <= 10);
 }
 
 TEST_CASE("estimates are computed at least every half percent of the parameter") {
