@@ -24,7 +24,8 @@ void Disc::set(In x_1, In x_2, In h) {
   double bound[3][4] = {};
   for (int i = 0; i < 3; ++i)
     for (int n = 1; n <= harmonics_.order; ++n) {
-      double wave = std::hypot(u_(n, i), u_(harmonics_.order + n, i));
+      const double a = u_(n, i), b = u_(harmonics_.order + n, i);
+      double wave = std::sqrt(a * a + b * b);  // an overflow is one of the force
       for (int order = 0; order < 4; ++order, wave *= n) bound[i][order] += wave;
     }
   for (int order = 0; order < 4; ++order) {
