@@ -1,5 +1,5 @@
 # Made from the keys of studies: python -P python/stubs > python/arcslip/methods.pyi
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from numpy.typing import NDArray
@@ -26,7 +26,7 @@ class StudyMethods:
         threads: int | None = None,
         progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
-        columns: Sequence[str] | None = None,
+        columns: Iterable[str] | None = None,
     ) -> Results: ...
     def trace(
         self,
@@ -44,7 +44,7 @@ class StudyMethods:
         threads: int | None = None,
         progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
-        columns: Sequence[str] | None = None,
+        columns: Iterable[str] | None = None,
     ) -> Results: ...
     def peaks(
         self,
@@ -62,7 +62,7 @@ class StudyMethods:
         threads: int | None = None,
         progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
-        columns: Sequence[str] | None = None,
+        columns: Iterable[str] | None = None,
     ) -> Results: ...
     def folds(
         self,
@@ -79,7 +79,7 @@ class StudyMethods:
         threads: int | None = None,
         progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
-        columns: Sequence[str] | None = None,
+        columns: Iterable[str] | None = None,
     ) -> Results: ...
     def bifurcations(
         self,
@@ -99,7 +99,7 @@ class StudyMethods:
         threads: int | None = None,
         progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
-        columns: Sequence[str] | None = None,
+        columns: Iterable[str] | None = None,
     ) -> Results: ...
     def time(
         self,
@@ -144,7 +144,7 @@ class StudyMethods:
         threads: int | None = None,
         progress: bool | Callable[[dict[str, Any]], object] | None = None,
         coefficients: bool = False,
-        columns: Sequence[str] | None = None,
+        columns: Iterable[str] | None = None,
     ) -> Results: ...
     def sweep(
         self,

@@ -50,7 +50,7 @@ COMMON = {
 OF_BRANCHES = {
     "coefficients": ("bool", "Whether results have the Fourier coefficients of the response. Default: False."),
     "columns": (
-        "Sequence[str]",
+        "Iterable[str]",
         'The columns of points and events that are computed, with or without "elements": "amplitude", "damper.energy"; events'
         " also have their `kind`. By default all.",
     ),
@@ -61,7 +61,7 @@ def run(
     core: _core.Scene,
     which: Sequence[int],
     coefficients: bool,
-    columns: Sequence[str] | None,
+    columns: Iterable[str] | None,
     threads: int | None,
     progress: Progress | None,
 ) -> Results:
@@ -196,7 +196,7 @@ def method(kind: Mapping[str, Any]) -> Callable[..., Results]:
         threads: int | None = None,
         progress: Progress | None = None,
         coefficients: bool = False,
-        columns: Sequence[str] | None = None,
+        columns: Iterable[str] | None = None,
         **options: Any,
     ) -> Results:
         for name in options:

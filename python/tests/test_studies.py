@@ -79,8 +79,9 @@ def test_unknown_columns_are_refused(scene: arcslip.Scene) -> None:
             scene.frf(columns=wrong)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="has no argument 'columns'"):
         scene.time(columns=["time"])  # type: ignore[call-arg]
-    once = scene.frf(columns=(name for name in ["frequency"]))  # type: ignore[arg-type]
-    assert list(once.main.columns) == list(scene.frf(columns=("frequency",)).main.columns) != []
+    (once,) = scene.frf(columns=(name for name in ["frequency"]))
+    (listed,) = scene.frf(columns=["frequency"])
+    assert list(once.main.columns) == list(listed.main.columns) != []
 
 
 @pytest.mark.parametrize("wrong", ["much", None, [10.0], np.nan, {"a": 1}, -1, "a\0b"])

@@ -364,6 +364,24 @@ TEST_CASE("where kinks are passed one that is not is found as the curve needs it
   }
 }
 
+TEST_CASE("a step before a sharp turn is shortened as its error is seen to fall") {
+  // Of 0.2 rad within 1e-5, 1e-3 behind the start.
+  constexpr double width = 1e-5, place = 0.3;
+  const auto u_of = [](double p) { return 2 + 0.1 * std::hypot(p - place, width); };
+  const auto slope = [](double p) { return 0.1 * (p - place) / std::hypot(p - place, width); };
+  const auto problem = graph(u_of, slope, [](In, In) { return 1; });
+  Options options = window(-0.5, 1);
+  options.step.curve_tolerance = 1e-3;
+  options.step.largest_parameter = 0.3;
+  options.step.initial = 0.25;
+  int first = 0;
+  options.on_rejection = [&](const Rejection& now) { first += now.parameter == place - 1e-3 ? 1 : 0; };
+  const Branch branch = trace(problem, on(u_of, place - 1e-3), options);
+  REQUIRE(branch.stop.reason == StopReason::boundary);
+  CAPTURE(branch.counts.rejected_steps, branch.points.size(), first);
+  CHECK(first <= 3);
+}
+
 TEST_CASE("kinks are passed by the error of the curve alone: without a tolerance of it they are not") {
   Options options = window(-1, 4);
   options.step.pass_kinks = true;
