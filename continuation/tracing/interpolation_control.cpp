@@ -23,7 +23,7 @@ constexpr double least_departure = 1.0 / 20;
 constexpr double middle_of_cubic[] = {0.5};
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double across_many =
-    0.4;  // of the error allowed: kinks between these shares may take it twice as far
+    0.4;  // of the error allowed: kinks between these shares may take it 2.5 times as far
 constexpr double slope_safety = 10;  // of a slope's sign, at a kink
 
 // Whether a slope with values a and b at the ends of a step, and a deviation bend s (1 - s) from the straight

@@ -21,14 +21,10 @@ constexpr Field gap_field{.name = "gap",
                           .unit = "m",
                           .lower = -std::numeric_limits<double>::infinity(),
                           .upper = std::numeric_limits<double>::infinity()};
-constexpr Field place_fields[] = {{.name = "x",
-                                   .unit = "m",
-                                   .lower = -std::numeric_limits<double>::infinity(),
-                                   .upper = std::numeric_limits<double>::infinity()},
-                                  {.name = "y",
-                                   .unit = "m",
-                                   .lower = -std::numeric_limits<double>::infinity(),
-                                   .upper = std::numeric_limits<double>::infinity()}};
+constexpr double farthest_place = 1e6;
+constexpr Field place_fields[] = {
+    {.name = "x", .unit = "m", .lower = -farthest_place, .upper = farthest_place},
+    {.name = "y", .unit = "m", .lower = -farthest_place, .upper = farthest_place}};
 constexpr Field pressure_field{
     .name = "pressure", .unit = "Pa", .lower = 0, .upper = std::numeric_limits<double>::infinity()};
 

@@ -65,17 +65,31 @@ Peak highest_peak(std::span<const ResponseBranch> branches) {
   return highest;
 }
 
+// From the least to the largest value of a coordinate.
+double extent(const std::vector<PatchRow>& rows, std::size_t c) {
+  const auto [least, most] = std::minmax_element(
+      rows.begin(), rows.end(), [c](const auto& a, const auto& b) { return (*a.place)[c] < (*b.place)[c]; });
+  return (*most->place)[c] - (*least->place)[c];
+}
+
+// The length next to which others are rounding: of the patch, or of a contact.
+double size_of(const std::vector<PatchRow>& rows) {
+  double area = 0;
+  for (const PatchRow& row : rows) area = std::max(area, row.area);
+  return std::max({extent(rows, 0), extent(rows, 1), std::sqrt(area)});
+}
+
 // The mean distance of neighbours among the different values of a coordinate; 0: there is one value.
 double spacing(const std::vector<PatchRow>& rows, std::size_t c) {
-  constexpr double equal = 1e-6;  // of the extent
+  constexpr double equal = 1e-6;
+  const double apart = equal * size_of(rows);
   std::vector<double> values;
   for (const PatchRow& row : rows) values.push_back((*row.place)[c]);
   std::sort(values.begin(), values.end());
-  const double extent = values.back() - values.front();
   const auto last = std::unique(values.begin(), values.end(),
-                                [&](double a, double b) { return std::abs(a - b) <= equal * extent; });
+                                [apart](double a, double b) { return std::abs(a - b) <= apart; });
   const auto different = last - values.begin();
-  return different > 1 ? extent / static_cast<double>(different - 1) : 0;
+  return different > 1 ? extent(rows, c) / static_cast<double>(different - 1) : 0;
 }
 
 // The sides of the rectangle of an area. In a row of contacts it ends where the next one begins.

@@ -160,6 +160,9 @@ TEST_CASE("faults of a patch name the line of its file") {
        "line 1 of \"contacts/pad.csv\": found no column \"y\", which is required"},
       {"tangential,normal,area,y\nt,n,1,0\n",
        "line 1 of \"contacts/pad.csv\": found no column \"x\", which is required"},
+      {"tangential,normal,area,x,y\nt,n,1,0,1e7\n",
+       "line 2 of \"contacts/pad.csv\": found the y \"1e7\", must be a number, at least -1e+06 m and at "
+       "most"},
       {"tangential,normal,area,x,y\nt,n,1,0,\n",
        "line 2 of \"contacts/pad.csv\": found the y \"\", must be a number"},
       {"tangential,normal,area,area\n", "line 1 of \"contacts/pad.csv\": found the column \"area\" again"},

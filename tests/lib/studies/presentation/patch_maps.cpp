@@ -116,7 +116,10 @@ TEST_CASE("contacts in a row are as wide as their distance, and one alone is a s
   };
   const FigureTile row = tile_of("t,n,2e-4,4e4,0.1,0\nt,n,2e-4,4e4,0.105,0\nt,n,2e-4,4e4,0.11,0\n"),
                    column = tile_of("t,n,2e-4,4e4,0,0.1\nt,n,2e-4,4e4,0,0.105\n"),
-                   alone = tile_of("t,n,4e-4,4e4,3,4\n");
+                   alone = tile_of("t,n,4e-4,4e4,3,4\n"),
+                   rounded = tile_of("t,n,2e-4,4e4,0.1,0\nt,n,2e-4,4e4,0.105,1e-17\nt,n,2e-4,4e4,0.11,0\n");
+  CHECK(rounded.right - rounded.left == Approx(0.005).epsilon(1e-9));
+  CHECK(rounded.upper - rounded.lower == Approx(0.04).epsilon(1e-9));
   CHECK(row.right - row.left == Approx(0.005).epsilon(1e-9));
   CHECK(area(row) == Approx(2e-4).epsilon(1e-9));
   CHECK(column.upper - column.lower == Approx(0.005).epsilon(1e-9));
