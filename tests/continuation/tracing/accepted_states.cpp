@@ -1,6 +1,7 @@
 // Problems with a state, which changes with each accepted point and by nothing else.
 
 #include "catch.hpp"
+#include "contains.hpp"
 
 #include "continuation/tracing/softening.hpp"
 
@@ -16,10 +17,6 @@
 using namespace softening;
 
 namespace {
-
-bool says(const std::string& message, const char* words) {
-  return message.find(words) != std::string::npos;
-}
 
 bool same(const Vector& a, const Vector& b) {
   return a.size() == b.size() && (a.array() == b.array()).all();
@@ -343,7 +340,7 @@ TEST_CASE(
   const Start start{.u = Vector::Zero(10), .p = Vector{{0.01}}};
   const Branch doubted = trace(from_functions(wrong), start, window(0.01, 2));
   REQUIRE(!doubted.warnings.empty());
-  CHECK(says(doubted.warnings[0], "the Jacobian is wrong"));
+  CHECK(contains(doubted.warnings[0], "the Jacobian is wrong"));
   Options options = window(0.01, 2);
   options.step.largest = 0.003;  // 512 points and more
   const Branch right = trace(from_functions(functions(bar)), start, options);
@@ -377,12 +374,12 @@ TEST_CASE("a branch ends where the state that a point leaves cannot be computed"
   };
   const Branch thrown = trace(from_functions(all), at(-1.3, -1), window(-1, 1));
   CHECK(thrown.stop.reason == StopReason::not_evaluated);
-  CHECK(says(thrown.stop.message, "the state that the point at"));
-  CHECK(says(thrown.stop.message, "the damage is larger than 1"));
+  CHECK(contains(thrown.stop.message, "the state that the point at"));
+  CHECK(contains(thrown.stop.message, "the damage is larger than 1"));
   all.next = [](In u, In, In, Out next) { next[0] = std::log(-1 - u[0]); };
   const Branch undefined = trace(from_functions(all), at(-1.3, -1), window(-1, 1));
   CHECK(undefined.stop.reason == StopReason::not_evaluated);
-  CHECK(says(undefined.stop.message, "the state is not finite"));
+  CHECK(contains(undefined.stop.message, "the state is not finite"));
 }
 
 TEST_CASE("a closed curve of a problem whose state has changed on the way is not a closed branch") {
