@@ -118,7 +118,7 @@ TEST_CASE("an element of another law's name that sticks at an optimum is release
   check_same(file);
 }
 
-TEST_CASE("so it does among several elements with a mean, sampled as well") {
+TEST_CASE("so it does among several elements with a mean, sampled as well", "[numbers]") {
   json file = file_of(scenes::chain(4, true));
   file["studies"] = json::parse(R"([
     {"name": "frf", "kind": "frf", "from": 0.6, "to": 1.4},

@@ -161,8 +161,8 @@ TEST_CASE("faults of a patch name the line of its file") {
       {"tangential,normal,area,y\nt,n,1,0\n",
        "line 1 of \"contacts/pad.csv\": found no column \"x\", which is required"},
       {"tangential,normal,area,x,y\nt,n,1,0,1e7\n",
-       "line 2 of \"contacts/pad.csv\": found the y \"1e7\", must be a number, at least -1e+06 m and at "
-       "most"},
+       "line 2 of \"contacts/pad.csv\": found the y \"1e7\", must be a number, at least -1e+06 and at "
+       "most 1e+06 m"},
       {"tangential,normal,area,x,y\nt,n,1,0,\n",
        "line 2 of \"contacts/pad.csv\": found the y \"\", must be a number"},
       {"tangential,normal,area,area\n", "line 1 of \"contacts/pad.csv\": found the column \"area\" again"},
